@@ -1,0 +1,58 @@
+// Roe's flux on a moving face (Roe 1981), with Rieper's low-Mach correction (J. Comput. Phys. 230 (2011) 5263).
+#pragma once
+#include "base/dual.h"
+#include "fluid/gas.h"
+
+namespace windhover::fluid {
+
+struct Roe {
+  /// |x| rounded off below delta (Harten): differentiable, and no expansion shocks.
+  template <class T>
+  static T rounded(const T& x, const T& delta) {
+    const T a = absolute(x);
+    return select(a < delta, (x * x + delta * delta) / (2.0 * delta), a);
+  }
+
+  /// `mach`: scale of the normal-velocity jump, 0..1; 1 is plain Roe.
+  template <class T, class G>
+  static Flux<T> flux(const State<T>& l, const State<T>& r, const FaceNormal<G>& n, const T& mach, double gamma) {
+    return 0.5 * (physical_flux(l, n, gamma) + physical_flux(r, n, gamma) - dissipation(l, r, n, mach, gamma));
+  }
+
+  template <class T, class G>
+  static Flux<T> dissipation(const State<T>& l, const State<T>& r, const FaceNormal<G>& n, const T& mach, double gamma) {
+    using std::sqrt;
+    // Roe's averages
+    const T root_l = sqrt(l.rho), root_r = sqrt(r.rho);
+    const T weight = root_r / (root_l + root_r);
+    const auto mean = [&weight](const T& a, const T& b) { return a + weight * (b - a); };
+    const double g = gamma / (gamma - 1.0);
+    const T u = mean(l.u, r.u), v = mean(l.v, r.v), w = mean(l.w, r.w);
+    const T enthalpy = mean(g * (l.p / l.rho) + 0.5 * speed_squared(l), g * (r.p / r.rho) + 0.5 * speed_squared(r));
+    const T kinetic = 0.5 * (u * u + v * v + w * w);
+    const T c2 = (gamma - 1.0) * (enthalpy - kinetic);
+    const T c = sqrt(c2);
+    const T rho = root_l * root_r;
+    const T un = u * n.x + v * n.y + w * n.z;
+    const T relative = un - n.grid_speed;
+
+    // wave strengths
+    const T du = r.u - l.u, dv = r.v - l.v, dw = r.w - l.w, dp = r.p - l.p;
+    const T dun = du * n.x + dv * n.y + dw * n.z;
+    const T half = 0.5 / c2;
+    const T jump = rho * c * (mach * dun);
+    const T slow = rounded(relative - c, 0.1 * c) * half * (dp - jump);
+    const T fast = rounded(relative + c, 0.1 * c) * half * (dp + jump);
+    const T contact_speed = rounded(relative, 1e-6 * c);
+    const T entropy = contact_speed * (r.rho - l.rho - 2.0 * half * dp);
+    const T shear = contact_speed * rho;
+
+    const T mass = slow + fast + entropy;
+    const T acoustic = c * (fast - slow) - shear * dun;
+    return {mass, mass * u + acoustic * n.x + shear * du, mass * v + acoustic * n.y + shear * dv,
+            mass * w + acoustic * n.z + shear * dw,
+            (slow + fast) * enthalpy + entropy * kinetic + acoustic * un + shear * (u * du + v * dv + w * dw)};
+  }
+};
+
+}  // namespace windhover::fluid

@@ -1,0 +1,154 @@
+#include "fluid/gradient.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <map>
+
+#include "mesh/cell_shape.h"
+
+namespace windhover::fluid {
+
+using mesh::Index;
+using mesh::Mat3;
+using mesh::Mesh;
+using mesh::Vec3;
+
+namespace {
+
+/// Inverse that leaves directions without information out (one cell across).
+Mat3 pseudo_inverse(const Mat3& a) {
+  Eigen::JacobiSVD<Mat3> svd(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  svd.setThreshold(1e-8);
+  return svd.solve(Mat3::Identity());
+}
+
+/// node → (cell, the cell's point for that node) for the nodes of cells that need gradients.
+struct NodeCells {
+  std::vector<int> start, cell, point;
+  std::vector<int> used;  // mesh node → node here, or -1
+};
+
+NodeCells collect_node_cells(const Mesh& m) {
+  NodeCells n;
+  n.used.assign(m.n_nodes, -1);
+  int count = 0;
+  for (Index k = 0; k < m.cell_point_start[m.n_gradient]; ++k) {
+    int& u = n.used[m.point_node[m.cell_point[k]]];
+    if (u < 0) u = count++;
+  }
+  n.start.assign(count + 1, 0);
+  const auto node_of = [&](Index k) { return n.used[m.point_node[m.cell_point[k]]]; };
+  for (Index k = 0; k < m.cell_point_start[m.n_cells]; ++k)
+    if (node_of(k) >= 0) ++n.start[node_of(k) + 1];
+  for (int i = 0; i < count; ++i) n.start[i + 1] += n.start[i];
+  n.cell.resize(n.start[count]);
+  n.point.resize(n.start[count]);
+  std::vector<int> fill(n.start.begin(), n.start.end() - 1);
+  for (Index c = 0; c < m.n_cells; ++c)
+    for (Index k = m.cell_point_start[c]; k < m.cell_point_start[c + 1]; ++k)
+      if (const int node = node_of(k); node >= 0) {
+        n.cell[fill[node]] = c;
+        n.point[fill[node]++] = m.cell_point[k];
+      }
+  return n;
+}
+
+}  // namespace
+
+GreenGauss::GreenGauss(const Mesh& m) {
+  NodeCells nodes = collect_node_cells(m);
+  const int n_nodes = static_cast<int>(nodes.start.size()) - 1;
+  node_rows_.resize(n_nodes);
+  node_weight_.resize(nodes.cell.size());
+  std::vector<Vec3> mean_shift(n_nodes, Vec3::Zero());  // weighted mean of cell centroids, from the node
+  for (int i = 0; i < n_nodes; ++i) {
+    double sum = 0;
+    for (int k = nodes.start[i]; k < nodes.start[i + 1]; ++k) {
+      const Vec3 d = m.centroid[nodes.cell[k]] - m.point[nodes.point[k]];
+      sum += node_weight_[k] = 1.0 / d.norm();
+      mean_shift[i] += node_weight_[k] * d;
+    }
+    mean_shift[i] /= sum;
+    for (int k = nodes.start[i]; k < nodes.start[i + 1]; ++k) node_weight_[k] /= sum;
+  }
+
+  cell_start_.push_back(0);
+  for (Index c = 0; c < m.n_gradient; ++c) {
+    const Index first = m.cell_point_start[c];
+    const int n = mesh::point_count(m.type[c]);
+    Vec3 points[8], coefficient[8];
+    for (int j = 0; j < n; ++j) points[j] = m.point[m.cell_point[first + j]] - m.centroid[c];
+    mesh::green_gauss_coefficients(m.type[c], points, m.volume[c], coefficient);
+    Mat3 g = Mat3::Zero();
+    for (int j = 0; j < n; ++j) {
+      const int node = nodes.used[m.point_node[m.cell_point[first + j]]];
+      g += coefficient[j] * (points[j] + mean_shift[node]).transpose();
+    }
+    const Mat3 correction = pseudo_inverse(g);
+    for (int j = 0; j < n; ++j) {
+      const Vec3 d = correction * coefficient[j];
+      cell_node_.push_back(nodes.used[m.point_node[m.cell_point[first + j]]]);
+      coefficient_.push_back({d.x(), d.y(), d.z()});
+    }
+    cell_start_.push_back(static_cast<int>(cell_node_.size()));
+  }
+  node_start_ = std::move(nodes.start);
+  node_cell_ = std::move(nodes.cell);
+}
+
+void GreenGauss::apply(const Row* cells, GradientRow* gradients) const {
+  const int n_nodes = static_cast<int>(node_rows_.size());
+  for (int i = 0; i < n_nodes; ++i) {
+    Pack sum(0.0);
+    for (int k = node_start_[i]; k < node_start_[i + 1]; ++k) sum += node_weight_[k] * Pack::load(cells[node_cell_[k]].v);
+    sum.store(node_rows_[i].v);
+  }
+  const int n_cells = static_cast<int>(cell_start_.size()) - 1;
+  for (int c = 0; c < n_cells; ++c) {
+    Pack g[3] = {0.0, 0.0, 0.0};
+    for (int k = cell_start_[c]; k < cell_start_[c + 1]; ++k) {
+      const Pack row = Pack::load(node_rows_[cell_node_[k]].v);
+      for (int d = 0; d < 3; ++d) g[d] += coefficient_[k][d] * row;
+    }
+    for (int d = 0; d < 3; ++d) g[d].store(gradients[c][d].v);
+  }
+}
+
+LeastSquares::LeastSquares(const Mesh& m) {
+  const NodeCells nodes = collect_node_cells(m);
+  start_.push_back(0);
+  for (Index c = 0; c < m.n_gradient; ++c) {
+    std::map<int, Vec3> offset;  // neighbour → its centroid from here (through the shared node, so across periodic faces)
+    for (Index k = m.cell_point_start[c]; k < m.cell_point_start[c + 1]; ++k) {
+      const Index point = m.cell_point[k];
+      const int node = nodes.used[m.point_node[point]];
+      for (int j = nodes.start[node]; j < nodes.start[node + 1]; ++j)
+        if (nodes.cell[j] != c)
+          offset[nodes.cell[j]] = (m.centroid[nodes.cell[j]] - m.point[nodes.point[j]]) + (m.point[point] - m.centroid[c]);
+    }
+    Mat3 normal = Mat3::Zero();
+    for (const auto& [other, d] : offset) normal += d * d.transpose() / d.squaredNorm();
+    const Mat3 inverse = pseudo_inverse(normal);
+    for (const auto& [other, d] : offset) {
+      const Vec3 w = inverse * d / d.squaredNorm();
+      neighbour_.push_back(other);
+      coefficient_.push_back({w.x(), w.y(), w.z()});
+    }
+    start_.push_back(static_cast<int>(neighbour_.size()));
+  }
+}
+
+void LeastSquares::apply(const Row* cells, GradientRow* gradients) const {
+  const int n_cells = static_cast<int>(start_.size()) - 1;
+  for (int c = 0; c < n_cells; ++c) {
+    const Pack own = Pack::load(cells[c].v);
+    Pack g[3] = {0.0, 0.0, 0.0};
+    for (int k = start_[c]; k < start_[c + 1]; ++k) {
+      const Pack difference = Pack::load(cells[neighbour_[k]].v) - own;
+      for (int d = 0; d < 3; ++d) g[d] += coefficient_[k][d] * difference;
+    }
+    for (int d = 0; d < 3; ++d) g[d].store(gradients[c][d].v);
+  }
+}
+
+}  // namespace windhover::fluid

@@ -1,0 +1,19 @@
+// Faces in blocks of eight: the unit in which fluxes are computed (one vector register wide).
+#pragma once
+
+namespace windhover::mesh {
+
+inline constexpr int kLanes = 8;
+
+/// Up to eight faces of one zone. All geometry is constant and in the zone's own frame, in units of the
+/// reference length; the normal points from cell[0] to cell[1] (on a boundary: out of cell[0], and cell[1] == cell[0]).
+/// Lanes beyond `count` are padding: area and moment zero, arms zero, cells a valid copy of lane 0's.
+struct alignas(64) FaceBlock {
+  double area[3][kLanes];      ///< A = ∫ n dA
+  double moment[3][kLanes];    ///< M = ∫ r × n dA about the zone's origin
+  double arm[kLanes][2][3];    ///< face centroid minus the centroid of cell[side]
+  int cell[2][kLanes];         ///< local cells
+  int count = 0;
+};
+
+}  // namespace windhover::mesh
