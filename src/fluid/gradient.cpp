@@ -22,6 +22,23 @@ Mat3 pseudo_inverse(const Mat3& a) {
   return svd.solve(Mat3::Identity());
 }
 
+/// Green–Gauss coefficients of a cell's points: gradient = Σ coefficient_j value_j. Faces are fans of triangles about the
+/// mean of their points (as in the geometry of the faces), values linear on each triangle.
+void green_gauss_coefficients(mesh::CellType type, const Vec3* points, double volume, Vec3* coefficient) {
+  for (int j = 0; j < mesh::point_count(type); ++j) coefficient[j].setZero();
+  for (const mesh::ShapeFace& face : mesh::faces_of(type)) {
+    Vec3 apex = Vec3::Zero();
+    for (int i = 0; i < face.n; ++i) apex += points[face.point[i]] / face.n;
+    for (int i = 0; i < face.n; ++i) {
+      const int a = face.point[i], b = face.point[(i + 1) % face.n];
+      const Vec3 third = (points[a] - apex).cross(points[b] - apex) / (6.0 * volume);  // area / 3 of the triangle
+      coefficient[a] += third;
+      coefficient[b] += third;
+      for (int k = 0; k < face.n; ++k) coefficient[face.point[k]] += third / face.n;
+    }
+  }
+}
+
 /// node → (cell, the cell's point for that node) for the nodes of cells that need gradients.
 struct NodeCells {
   std::vector<int> start, cell, point;
@@ -78,7 +95,7 @@ GreenGauss::GreenGauss(const Mesh& m) {
     const int n = mesh::point_count(m.type[c]);
     Vec3 points[8], coefficient[8];
     for (int j = 0; j < n; ++j) points[j] = m.point[m.cell_point[first + j]] - m.centroid[c];
-    mesh::green_gauss_coefficients(m.type[c], points, m.volume[c], coefficient);
+    green_gauss_coefficients(m.type[c], points, m.volume[c], coefficient);
     Mat3 g = Mat3::Zero();
     for (int j = 0; j < n; ++j) {
       const int node = nodes.used[m.point_node[m.cell_point[first + j]]];
