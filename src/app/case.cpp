@@ -1,0 +1,153 @@
+#include "app/case.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/case_keys.h"
+#include "base/errors.h"
+#include "base/version.h"
+#include "io/options_documenter.h"
+#include "io/options_reader.h"
+#include "io/options_writer.h"
+
+namespace windhover::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double radians = std::numbers::pi / 180;
+
+std::string case_name(const fs::path& file) {
+  return file.filename() == "case.toml" ? file.parent_path().filename().string() : file.stem().string();
+}
+
+/// <geometry>_<k1><v1>_<k2><v2>.msh beside the geometry: each set of parameters has a mesh of its own.
+fs::path mesh_of_geometry(const MeshOptions& mesh) {
+  const fs::path geometry = mesh.geometry;
+  std::string name = geometry.stem().string();
+  for (const auto& [key, value] : mesh.parameters) name += fmt::format("_{}{}", key, value);
+  return geometry.parent_path() / (name + ".msh");
+}
+
+void complete(Case& c) {
+  const fs::path folder = c.file.parent_path();
+  auto& mesh = c.mesh;
+  if (!mesh.geometry.empty()) mesh.geometry = (folder / mesh.geometry).lexically_normal();
+  if (!mesh.file.empty()) {
+    mesh.file = (folder / mesh.file).lexically_normal();
+  } else if (!mesh.geometry.empty()) {
+    mesh.file = mesh_of_geometry(mesh);
+  }
+  if (c.body.walls.empty()) {
+    for (const auto& [name, condition] : c.fluid.boundary)
+      if (condition == "wall") c.body.walls.push_back(name);
+  }
+  if (c.output.directory.empty()) c.output.directory = "results/" + c.name;
+}
+
+double fastest_rotation_deg_s(const BodyOptions& body) {
+  double fastest = 0;
+  for (const auto& motion : body.motion)
+    if (motion.kind == "rotation") fastest = std::max(fastest, std::abs(motion.rate_deg_s));
+  return fastest;
+}
+
+void validate_time(const TimeOptions& time, const BodyOptions& body, const toml::table& file) {
+  const int step_keys = int(time.step_s.has_value()) + time.step_deg.has_value() + time.step_nondim.has_value();
+  if (step_keys != 1)
+    throw UserError("{}: time: exactly one of step_s, step_deg, step_nondim is needed, {} are given",
+                    io::place(file, "time"), step_keys);
+  if (time.steps.has_value() == time.end_s.has_value())
+    throw UserError("{}: time: exactly one of steps and end_s is needed, {} given", io::place(file, "time"),
+                    time.steps ? "both are" : "none is");
+  if (time.step_deg && fastest_rotation_deg_s(body) == 0)
+    throw UserError("{}: time.step_deg = {}: needs a [[body.motion]] with kind = \"rotation\" and rate_deg_s",
+                    io::place(file, "time.step_deg"), *time.step_deg);
+}
+
+void validate_direction(const Vec3& direction, const std::string& key, const toml::table& file) {
+  if (direction.norm() == 0) throw UserError("{}: {} = [0, 0, 0]: has no direction", io::place(file, key), key);
+}
+
+void validate(const Case& c, const toml::table& file) {
+  if (c.mesh.file.empty())
+    throw UserError("{}: mesh: one of mesh.file and mesh.geometry is needed", io::place(file, "mesh"));
+  if (!c.mesh.parameters.empty() && c.mesh.geometry.empty())
+    throw UserError("{}: mesh.parameters: is of no use without mesh.geometry", io::place(file, "mesh.parameters"));
+  for (const auto& name : c.body.walls) {
+    const auto there = c.fluid.boundary.find(name);
+    if (there != c.fluid.boundary.end() && there->second == "wall") continue;
+    std::vector<std::string> walls;
+    for (const auto& [surface, condition] : c.fluid.boundary)
+      if (condition == "wall") walls.push_back(surface);
+    throw UserError("{}: body.walls: \"{}\" is not a wall in [fluid.boundary]{}", io::place(file, "body.walls"), name,
+                    suggestion(name, walls));
+  }
+  validate_direction(c.fluid.initial.direction, "fluid.initial.direction", file);
+  for (size_t i = 0; i < c.body.motion.size(); ++i) {
+    validate_direction(c.body.motion[i].direction, fmt::format("body.motion[{}].direction", i), file);
+    validate_direction(c.body.motion[i].axis, fmt::format("body.motion[{}].axis", i), file);
+  }
+  validate_time(c.time, c.body, file);
+  constexpr double most_steps = 1e9;
+  if (c.time.end_s && *c.time.end_s / step_seconds(c) > most_steps)
+    throw UserError("{}: time.end_s = {}: is more than {} steps of {} s", io::place(file, "time.end_s"),
+                    *c.time.end_s, most_steps, step_seconds(c));
+}
+
+}  // namespace
+
+Case load_case(const fs::path& file, const std::vector<std::string>& overrides) {
+  const toml::table root = io::read_toml(file, overrides);
+  Case c;
+  c.file = fs::absolute(file).lexically_normal();
+  c.name = case_name(c.file);
+  io::read_options(root, c);
+  complete(c);
+  validate(c, root);
+  return c;
+}
+
+std::string effective_case(const Case& c) {
+  return fmt::format("# {}: the effective case, written by windhover {} ({})\n{}", c.name, version, revision,
+                     io::options_text(c));
+}
+
+std::string case_file_documentation() {
+  return "# Keys of a case file\n\n"
+         "Generated from the declarations by `windhover keys`. Everything is in SI, with the unit in the key's name.\n" +
+         io::options_documentation<Case>();
+}
+
+mesh::Motion body_motion(const Case& c) {
+  mesh::Motion motion;
+  for (const auto& o : c.body.motion) {
+    const double omega = 2 * std::numbers::pi * o.frequency_hz, phase = o.phase_deg * radians;
+    if (o.kind == "translation") {
+      motion.push_back(
+          mesh::Translation{o.direction.normalized(), {o.mean_m, o.rate_m_s, o.amplitude_m, omega, phase}});
+    } else {
+      motion.push_back(mesh::Rotation{
+          o.axis.normalized(),
+          o.point_m,
+          {o.mean_deg * radians, o.rate_deg_s * radians, o.amplitude_deg * radians, omega, phase}});
+    }
+  }
+  return motion;
+}
+
+double step_seconds(const Case& c) {
+  if (c.time.step_s) return *c.time.step_s;
+  if (c.time.step_deg) return *c.time.step_deg / fastest_rotation_deg_s(c.body);
+  return *c.time.step_nondim * c.fluid.length_m / c.fluid.sound_speed_m_s;
+}
+
+double end_seconds(const Case& c) { return c.time.end_s ? *c.time.end_s : *c.time.steps * step_seconds(c); }
+
+int step_count(const Case& c) {
+  if (c.time.steps) return *c.time.steps;
+  return static_cast<int>(std::ceil(*c.time.end_s / step_seconds(c) * (1 - 1e-12)));
+}
+
+}  // namespace windhover::app

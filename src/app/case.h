@@ -1,0 +1,128 @@
+// A case file as validated values: what load_case() returns is complete and consistent, nothing later checks it again.
+#pragma once
+#include <Eigen/Core>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/motion.h"
+
+namespace windhover::app {
+
+using Vec3 = Eigen::Vector3d;
+
+struct MeshOptions {
+  std::string file;      ///< after load_case: absolute, also when it follows from geometry and parameters
+  std::string geometry;  ///< after load_case: absolute, or empty
+  std::map<std::string, double> parameters;
+  double scale_m = 1;
+};
+
+/// State on one side of the initial jump; the velocity is along the jump's direction.
+struct RiemannState {
+  double density_kg_m3 = 1.225, velocity_m_s = 0, pressure_Pa = 101325;
+};
+
+struct InitialOptions {
+  std::string kind = "uniform";
+  Vec3 direction = Vec3::UnitX();
+  double position_m = 0;
+  RiemannState left, right;
+  Vec3 center_m = Vec3::Zero();
+  double strength = 5, core_radius_m = 1;
+};
+
+struct FluidOptions {
+  double gamma = 1.4, density_kg_m3 = 1.225, sound_speed_m_s = 340.29, length_m = 1;
+  std::string flux = "roe";
+  bool low_mach = true;
+  int order = 2;
+  std::string gradient = "green_gauss";
+  std::string limiter = "none";
+  double limiter_epsilon = 0.01;
+  std::map<std::string, std::string> boundary;  ///< condition of each physical surface
+  InitialOptions initial;
+
+  double pressure_Pa() const { return density_kg_m3 * sound_speed_m_s * sound_speed_m_s / gamma; }
+};
+
+struct WindOptions {
+  Vec3 velocity_m_s = Vec3::Zero();
+};
+
+/// One elementary prescribed motion; the keys of the other kind are unused.
+struct MotionOptions {
+  std::string kind = "translation";
+  Vec3 direction = Vec3::UnitX();
+  double mean_m = 0, rate_m_s = 0, amplitude_m = 0;
+  Vec3 axis = Vec3::UnitZ(), point_m = Vec3::Zero();
+  double mean_deg = 0, rate_deg_s = 0, amplitude_deg = 0;
+  double frequency_hz = 0, phase_deg = 0;
+};
+
+struct BodyOptions {
+  std::vector<std::string> walls;  ///< after load_case: every wall when the file names none
+  Vec3 moment_point_m = Vec3::Zero();
+  std::vector<MotionOptions> motion;
+};
+
+struct TimeOptions {
+  std::string scheme = "crank_nicolson";
+  std::optional<double> step_s, step_deg, step_nondim;  ///< exactly one
+  std::optional<int> steps;                             ///< exactly one of steps and end_s
+  std::optional<double> end_s;
+  int start_steps = 0;
+};
+
+struct SolverOptions {
+  std::string preconditioner = "ilu";
+  int ilu_levels = 0;
+  std::string jacobian = "exact";
+  double newton_tolerance = 1e-3;
+  int newton_iterations = 12;
+  bool eisenstat_walker = true;
+  double krylov_tolerance = 0.1;
+  int krylov_iterations = 200, krylov_restart = 30;
+  int jacobian_lag = 1;
+  bool extrapolate = true;
+  int max_halvings = 6;
+};
+
+struct OutputOptions {
+  std::string directory;  ///< after load_case: never empty
+  int fields_interval = 0, checkpoint_interval = 100;
+  double average_from_s = 0;
+};
+
+struct Case {
+  std::string name;            ///< the folder of a file called case.toml, otherwise the file's own name
+  std::filesystem::path file;  ///< absolute
+  MeshOptions mesh;
+  FluidOptions fluid;
+  WindOptions wind;
+  BodyOptions body;
+  TimeOptions time;
+  SolverOptions solver;
+  OutputOptions output;
+};
+
+/// Reads, completes and validates a case file; overrides are `dotted.key=value`. UserError for anything wrong.
+Case load_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// The effective case as TOML: every default written out, with the program's version.
+std::string effective_case(const Case& c);
+
+/// docs/case-file.md: every key with default, range and meaning.
+std::string case_file_documentation();
+
+/// The prescribed motion of the root zone in SI units and radians.
+mesh::Motion body_motion(const Case& c);
+
+/// The length of a step and the end of the run in seconds; steps = end / step, rounded up.
+double step_seconds(const Case& c);
+double end_seconds(const Case& c);
+int step_count(const Case& c);
+
+}  // namespace windhover::app

@@ -1,0 +1,150 @@
+// Every key of a case file: name, range and meaning. The defaults are those of the structs in case.h.
+#pragma once
+#include "app/case.h"
+#include "base/options.h"
+
+namespace windhover::app {
+
+template <class V>
+void declare(V& v, MeshOptions& o) {
+  v.key("file", o.file,
+        {.doc = "gmsh mesh, relative to the case file; when missing, named after `geometry` and `parameters`"});
+  v.key("geometry", o.geometry, {.doc = "gmsh .geo file from which `windhover mesh` makes the mesh"});
+  v.key("parameters", o.parameters, {.doc = "numbers handed to the geometry, in place of its DefineConstant defaults"});
+  v.key("scale_m", o.scale_m, {.doc = "metres per unit of the mesh file", .above = 0});
+}
+
+template <class V>
+void declare(V& v, RiemannState& o) {
+  v.key("density_kg_m3", o.density_kg_m3, {.doc = "density", .above = 0});
+  v.key("velocity_m_s", o.velocity_m_s, {.doc = "velocity along the direction of the jump"});
+  v.key("pressure_Pa", o.pressure_Pa, {.doc = "pressure", .above = 0});
+}
+
+template <class V>
+void declare(V& v, InitialOptions& o) {
+  v.key("kind", o.kind,
+        {.doc = "the free stream everywhere, two states with a jump between them, or the free stream with a vortex",
+         .choices = {"uniform", "riemann", "vortex"}});
+  v.when("kind", o.kind, "riemann", [&] {
+    v.key("direction", o.direction, {.doc = "normal of the jump, from left to right; any length"});
+    v.key("position_m", o.position_m, {.doc = "place of the jump along its normal"});
+    v.section("left", o.left, "The state before the jump.");
+    v.section("right", o.right, "The state behind the jump.");
+  });
+  v.when("kind", o.kind, "vortex", [&] {
+    v.key("center_m", o.center_m, {.doc = "a point of the axis, which is parallel to z"});
+    v.key("strength", o.strength,
+          {.doc = "β: the peak velocity is β/(2π) sound speeds, counter-clockwise seen from +z"});
+    v.key("core_radius_m", o.core_radius_m, {.doc = "radius of the peak velocity", .above = 0});
+  });
+}
+
+template <class V>
+void declare(V& v, FluidOptions& o) {
+  v.key("gamma", o.gamma, {.doc = "ratio of specific heats", .above = 1});
+  v.key("density_kg_m3", o.density_kg_m3, {.doc = "density of the free stream", .above = 0});
+  v.key("sound_speed_m_s", o.sound_speed_m_s,
+        {.doc = "sound speed of the free stream; its pressure follows from this and the density", .above = 0});
+  v.key("length_m", o.length_m, {.doc = "reference length, of `time.step_nondim` among others", .above = 0});
+  v.key("flux", o.flux, {.doc = "flux between cells", .choices = {"roe", "hllc", "slau2"}});
+  v.key("low_mach", o.low_mach, {.doc = "less dissipation in slow flow (roe)"});
+  v.key("order", o.order, {.doc = "order in space", .min = 1, .max = 2});
+  v.key("gradient", o.gradient, {.doc = "gradient of a cell", .choices = {"green_gauss", "least_squares"}});
+  v.key("limiter", o.limiter, {.doc = "limiter of the gradient, needed for shocks", .choices = {"none", "van_leer"}});
+  v.key("limiter_epsilon", o.limiter_epsilon,
+        {.doc = "jumps smaller than this fraction of the free stream are not limited", .above = 0});
+  v.key("boundary", o.boundary,
+        {.doc = "condition of each physical surface of the mesh; periodic surfaces need none",
+         .choices = {"wall", "farfield", "symmetry"}});
+  v.section("initial", o.initial, "The flow at the start.");
+}
+
+template <class V>
+void declare(V& v, WindOptions& o) {
+  v.key("velocity_m_s", o.velocity_m_s, {.doc = "velocity of the free stream in the inertial frame"});
+}
+
+template <class V>
+void declare(V& v, MotionOptions& o) {
+  v.key("kind", o.kind, {.doc = "kind of motion", .choices = {"translation", "rotation"}});
+  v.when("kind", o.kind, "translation", [&] {
+    v.key("direction", o.direction, {.doc = "direction of the translation; any length"});
+    v.key("mean_m", o.mean_m, {.doc = "distance = mean + rate t + amplitude sin(2π frequency t + phase)"});
+    v.key("rate_m_s", o.rate_m_s, {.doc = "steady part of the velocity"});
+    v.key("amplitude_m", o.amplitude_m, {.doc = "amplitude of the oscillation"});
+  });
+  v.when("kind", o.kind, "rotation", [&] {
+    v.key("axis", o.axis, {.doc = "axis of the rotation; any length"});
+    v.key("point_m", o.point_m, {.doc = "a point of the axis"});
+    v.key("mean_deg", o.mean_deg, {.doc = "angle = mean + rate t + amplitude sin(2π frequency t + phase)"});
+    v.key("rate_deg_s", o.rate_deg_s, {.doc = "steady part of the angular velocity"});
+    v.key("amplitude_deg", o.amplitude_deg, {.doc = "amplitude of the oscillation"});
+  });
+  v.key("frequency_hz", o.frequency_hz, {.doc = "frequency of the oscillation", .min = 0});
+  v.key("phase_deg", o.phase_deg, {.doc = "phase of the oscillation at t = 0"});
+}
+
+template <class V>
+void declare(V& v, BodyOptions& o) {
+  v.key("walls", o.walls, {.doc = "the walls whose loads are summed; when missing, every wall"});
+  v.key("moment_point_m", o.moment_point_m, {.doc = "the point of the body that moments are taken about"});
+  v.tables("motion", o.motion, "Prescribed motion: elementary motions, the first outermost.");
+}
+
+template <class V>
+void declare(V& v, TimeOptions& o) {
+  v.key("scheme", o.scheme,
+        {.doc = "time scheme; ssp_rk3 is explicit",
+         .choices = {"crank_nicolson", "backward_euler", "bdf2", "sdirk2", "ssp_rk3"}});
+  v.key("step_s", o.step_s, {.doc = "time step (exactly one of the three)", .above = 0});
+  v.key("step_deg", o.step_deg, {.doc = "time step as an angle of the fastest steady rotation", .above = 0});
+  v.key("step_nondim", o.step_nondim, {.doc = "time step in length_m / sound_speed_m_s", .above = 0});
+  v.key("steps", o.steps, {.doc = "number of time steps (exactly one of this and end_s)", .min = 0});
+  v.key("end_s", o.end_s, {.doc = "time at which the run ends", .above = 0});
+  v.key("start_steps", o.start_steps, {.doc = "backward-Euler steps at the start, for impulsive starts", .min = 0});
+}
+
+template <class V>
+void declare(V& v, SolverOptions& o) {
+  v.key("preconditioner", o.preconditioner,
+        {.doc = "preconditioner; ilu and lu per rank, asm with overlap",
+         .choices = {"ilu", "asm", "point_block_jacobi", "lu", "none"}});
+  v.key("ilu_levels", o.ilu_levels, {.doc = "levels of fill of the incomplete factors", .min = 0, .max = 10});
+  v.key("jacobian", o.jacobian,
+        {.doc = "Jacobian products by forward differentiation or by differences", .choices = {"exact", "difference"}});
+  v.key("newton_tolerance", o.newton_tolerance,
+        {.doc = "fall of the residual over a step's Newton iterations", .above = 0, .max = 1});
+  v.key("newton_iterations", o.newton_iterations, {.doc = "Newton iterations before a step is halved", .min = 1});
+  v.key("eisenstat_walker", o.eisenstat_walker, {.doc = "choose the Krylov tolerance by Eisenstat and Walker"});
+  v.key("krylov_tolerance", o.krylov_tolerance,
+        {.doc = "fall of the linear residual when eisenstat_walker is false", .above = 0, .max = 1});
+  v.key("krylov_iterations", o.krylov_iterations, {.doc = "Krylov iterations per Newton iteration, at most", .min = 1});
+  v.key("krylov_restart", o.krylov_restart, {.doc = "Krylov vectors kept before a restart", .min = 1});
+  v.key("jacobian_lag", o.jacobian_lag, {.doc = "steps between rebuilds of the preconditioner", .min = 1});
+  v.key("extrapolate", o.extrapolate, {.doc = "first guess of a step extrapolated from the last two"});
+  v.key("max_halvings", o.max_halvings, {.doc = "halvings of a failed step before the run stops", .min = 0, .max = 30});
+}
+
+template <class V>
+void declare(V& v, OutputOptions& o) {
+  v.key("directory", o.directory, {.doc = "folder of the results; when missing, results/<name of the case>"});
+  v.key("fields_interval", o.fields_interval,
+        {.doc = "steps between field outputs; 0: only the first and the last", .min = 0});
+  v.key("checkpoint_interval", o.checkpoint_interval,
+        {.doc = "steps between checkpoints; 0: only the last", .min = 0});
+  v.key("average_from_s", o.average_from_s, {.doc = "start of the averages in summary.json", .min = 0});
+}
+
+template <class V>
+void declare(V& v, Case& o) {
+  v.section("mesh", o.mesh, "Where the mesh is and how it is made.");
+  v.section("fluid", o.fluid, "The gas, the boundaries and the discretisation in space.");
+  v.section("wind", o.wind, "The air far away.");
+  v.section("body", o.body, "The body: its walls and its motion.");
+  v.section("time", o.time, "The discretisation in time.");
+  v.section("solver", o.solver, "Newton's method and the linear solver of a time step.");
+  v.section("output", o.output, "What is written, and where.");
+}
+
+}  // namespace windhover::app

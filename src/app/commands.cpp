@@ -1,0 +1,87 @@
+#include "app/commands.h"
+
+#include <CLI/CLI.hpp>
+#include <limits>
+
+#include "app/session.h"
+#include "app/simulation.h"
+#include "base/errors.h"
+#include "base/interrupt.h"
+#include "base/version.h"
+
+namespace windhover::app {
+namespace {
+
+struct Arguments {
+  std::string path;
+  std::vector<std::string> overrides;
+  std::string petsc;
+  RunOptions run;
+};
+
+int run(const Arguments& a) {
+  const Case c = load_case(a.path, a.overrides);
+  const Session session(a.petsc);
+  catch_interrupts();
+  return guarded([&] { return run_simulation(c, a.run); });
+}
+
+int check(const Arguments& a) {
+  const Case c = load_case(a.path, a.overrides);
+  const Session session(a.petsc);
+  return guarded([&] { return check_simulation(c); });
+}
+
+int keys() {
+  fmt::print("{}", case_file_documentation());
+  return 0;
+}
+
+void add_case(CLI::App& command, Arguments& a) {
+  command.add_option("CASE", a.path, "case file")->required();
+  command.add_option("--set", a.overrides, "override a key: key=value; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+void add_petsc(CLI::App& command, Arguments& a) {
+  command.add_option("--petsc", a.petsc, "options passed through to PETSc, such as \"-log_view\"");
+}
+
+}  // namespace
+
+int run_command(int argc, char** argv) {
+  CLI::App app{"Windhover: compressible flow about moving bodies"};
+  app.set_version_flag("--version", fmt::format("windhover {} ({})", version, revision));
+  app.require_subcommand(1);
+  Arguments a;
+
+  auto* run_app = app.add_subcommand("run", "run a case");
+  add_case(*run_app, a);
+  add_petsc(*run_app, a);
+  run_app->add_option("--out", a.run.out, "folder of the results");
+  run_app->add_flag("--restart", a.run.restart, "continue from the newest checkpoint in the results");
+  run_app->add_option("--steps", a.run.steps, "number of time steps instead of the case's")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
+
+  auto* check_app = app.add_subcommand("check", "dry run: case, mesh, memory and time; no step is taken");
+  add_case(*check_app, a);
+  add_petsc(*check_app, a);
+
+  auto* keys_app = app.add_subcommand("keys", "print the reference of all case keys")->group("");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    return guarded([&]() -> int { throw UserError("{} (windhover --help tells more)", error.what()); });
+  }
+  return guarded([&] {
+    if (*run_app) return run(a);
+    if (*check_app) return check(a);
+    if (*keys_app) return keys();
+    return 0;
+  });
+}
+
+}  // namespace windhover::app
