@@ -1,6 +1,7 @@
 // Forward-mode differentiation: a value and its derivative along one direction. T is double or Pack.
 #pragma once
 #include <cmath>
+#include <type_traits>
 
 #include "base/pack.h"
 
@@ -8,6 +9,7 @@ namespace windhover {
 
 template <class T>
 struct Dual {
+  static constexpr bool kVectorised = !std::is_same_v<T, double>;
   T v, d;
 
   Dual() = default;
@@ -26,7 +28,7 @@ struct Dual {
     const T q = a.v * inverse;
     return {q, (a.d - q * b.d) * inverse};
   }
-  // with constants: double, or T (geometry)
+  // with constants
   friend Dual operator+(const Dual& a, double s) { return {a.v + s, a.d}; }
   friend Dual operator+(double s, const Dual& a) { return {s + a.v, a.d}; }
   friend Dual operator-(const Dual& a, double s) { return {a.v - s, a.d}; }
@@ -38,14 +40,13 @@ struct Dual {
     const T q = s / b.v;
     return {q, -q * b.d / b.v};
   }
+  // with geometry, which has no derivative
+  friend Dual operator*(const Dual& a, const T& s) requires kVectorised { return {a.v * s, a.d * s}; }
+  friend Dual operator*(const T& s, const Dual& a) requires kVectorised { return {s * a.v, s * a.d}; }
+  friend Dual operator+(const Dual& a, const T& s) requires kVectorised { return {a.v + s, a.d}; }
+  friend Dual operator-(const Dual& a, const T& s) requires kVectorised { return {a.v - s, a.d}; }
   friend auto operator<(const Dual& a, const Dual& b) { return a.v < b.v; }
 };
-
-// Geometry of type Pack in products with Dual<Pack>.
-inline Dual<Pack> operator*(const Dual<Pack>& a, const Pack& s) { return {a.v * s, a.d * s}; }
-inline Dual<Pack> operator*(const Pack& s, const Dual<Pack>& a) { return {s * a.v, s * a.d}; }
-inline Dual<Pack> operator+(const Dual<Pack>& a, const Pack& s) { return {a.v + s, a.d}; }
-inline Dual<Pack> operator-(const Dual<Pack>& a, const Pack& s) { return {a.v - s, a.d}; }
 
 template <class T, class M>
 Dual<T> select(const M& m, const Dual<T>& a, const Dual<T>& b) {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "mesh/cell_shape.h"
+#include "mesh/motion.h"
 
 namespace windhover::fluid {
 

@@ -1,0 +1,19 @@
+// Boundary sums for all reconstructions (independent of the interior flux), and states on boundary faces.
+#pragma once
+#include "fluid/flux_kernels.h"
+
+namespace windhover::fluid {
+
+struct BoundaryKernels {
+  using Sum = void (*)(const FaceInput&, BoundaryKind, const mesh::FaceBlock* blocks, int count, Row* rates);
+  Sum residual[3];    ///< by Reconstruction
+  Sum derivative[3];  ///< along FaceInput::d_cells
+  /// d(first-order boundary flux)/d(conserved state of the cell), times the area.
+  void (*jacobian)(const FaceInput&, BoundaryKind, const mesh::FaceBlock&, BlockPack& block);
+  /// States on the boundary faces of one block.
+  State<Pack> (*state[3])(const FaceInput&, BoundaryKind, const mesh::FaceBlock&);
+};
+
+extern const BoundaryKernels kBoundaryKernels;
+
+}  // namespace windhover::fluid

@@ -1,0 +1,228 @@
+#include "fluid/euler.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/errors.h"
+
+namespace windhover::fluid {
+
+using mesh::FrameState;
+using mesh::Mat3;
+using mesh::Range;
+using mesh::Vec3;
+
+namespace {
+
+std::vector<BoundaryKind> resolve_patches(const mesh::Mesh& mesh, const FlowModel& model) {
+  std::vector<BoundaryKind> kinds;
+  for (const auto& patch : mesh.patches) {
+    const auto found = model.boundary.find(patch.name);
+    if (found == model.boundary.end())
+      throw UserError("fluid.boundary: the mesh's surface '{}' has no boundary condition (wall, symmetry or farfield)",
+                      patch.name);
+    kinds.push_back(found->second);
+  }
+  for (const auto& [name, kind] : model.boundary)
+    if (std::none_of(mesh.patches.begin(), mesh.patches.end(), [&](const auto& p) { return p.name == name; }))
+      throw UserError("fluid.boundary: '{}' is not a surface of the mesh", name);
+  return kinds;
+}
+
+/// Eight consecutive cells of five values each, as columns.
+void load_columns(const double* q, int count, Pack columns[8]) {
+  alignas(64) double rows[8][8] = {};
+  for (int j = 0; j < 8; ++j) std::memcpy(rows[j], q + 5 * std::min(j, count - 1), 5 * sizeof(double));
+  Pack packed[8];
+  for (int j = 0; j < 8; ++j) packed[j] = Pack::load(rows[j]);
+  transpose(packed, columns);
+}
+
+/// Speed relative to the moving cell over the speed of sound.
+template <class T>
+T relative_mach(const State<T>& s, const Pack grid[3], double gamma) {
+  using std::sqrt;
+  const T u = s.u - grid[0], v = s.v - grid[1], w = s.w - grid[2];
+  return sqrt((u * u + v * v + w * w + 1e-24) * s.rho / (gamma * s.p));
+}
+
+/// Velocity of the zone's points: V + spin r with r in the zone's axes.
+struct GridVelocity {
+  Vec3 V;
+  Mat3 spin;
+
+  explicit GridVelocity(const FrameState& f) : V(f.V) {
+    for (int k = 0; k < 3; ++k) spin.col(k) = f.omega.cross(f.R.col(k));
+  }
+  void at(const Vec3* r, int count, Pack out[3]) const {
+    for (int i = 0; i < 3; ++i) {
+      alignas(64) double x[3][8];
+      for (int j = 0; j < 8; ++j)
+        for (int k = 0; k < 3; ++k) x[k][j] = r[std::min(j, count - 1)][k];
+      if (i == 0)
+        for (int k = 0; k < 3; ++k) out[k] = V[k];
+      out[0] += spin(0, i) * Pack::load(x[i]);
+      out[1] += spin(1, i) * Pack::load(x[i]);
+      out[2] += spin(2, i) * Pack::load(x[i]);
+    }
+  }
+};
+
+template <class T>
+void make_rows(const T q[5], const Pack grid[3], bool use_mach, double gamma, T rows[8]) {
+  const State<T> s = primitive(q, gamma);
+  rows[0] = s.rho, rows[1] = s.u, rows[2] = s.v, rows[3] = s.w, rows[4] = s.p;
+  rows[kMach] = use_mach ? relative_mach(s, grid, gamma) : T(1.0);
+  rows[6] = rows[7] = T(0.0);
+}
+
+void store_rows(const Pack columns[8], int count, Row* out) {
+  Pack rows[8];
+  transpose(columns, rows);
+  for (int j = 0; j < count; ++j) rows[j].store(out[j].v);
+}
+
+}  // namespace
+
+EulerOperator::EulerOperator(const mesh::Mesh& mesh, FlowModel model)
+    : mesh_(mesh), model_(std::move(model)), patch_kind_(resolve_patches(mesh_, model_)) {
+  if (model_.reconstruction != Reconstruction::first_order) {
+    if (model_.gradient == GradientKind::green_gauss)
+      green_gauss_.emplace(mesh_);
+    else
+      least_squares_.emplace(mesh_);
+    gradients_.resize(mesh_.n_gradient);
+  }
+  zone_cells_.resize(mesh_.zones.size());
+  for (mesh::Index c = 0; c < mesh_.n_owned; ++c) {
+    Range& zone = zone_cells_[mesh_.cell_zone[c]];
+    if (zone.size() == 0) zone.begin = c;
+    zone.end = c + 1;
+  }
+  cells_.resize(mesh_.n_cells);
+  rates_.resize(mesh_.n_gradient);
+  base_ = make_vector();
+}
+
+VecHandle EulerOperator::make_vector() const {
+  VecHandle v;
+  petsc(VecCreateMPI(mesh_.comm, kVariables * mesh_.n_owned, PETSC_DETERMINE, v.out()));
+  petsc(VecSetBlockSize(v, kVariables));
+  return v;
+}
+
+/// Fills rows from the conserved state, or from its derivative along *dq, halo included.
+void EulerOperator::load_cells(Vec q, const Frames& frames, const Vec* dq, std::vector<Row>& rows) {
+  const double *values = nullptr, *derivatives = nullptr;
+  petsc(VecGetArrayRead(q, &values));
+  if (dq) petsc(VecGetArrayRead(*dq, &derivatives));
+  const bool use_mach = model_.low_mach || model_.flux->needs_mach;
+  for (size_t z = 0; z < frames.size(); ++z) {
+    const GridVelocity grid_velocity(frames[z]);
+    for (mesh::Index c = zone_cells_[z].begin; c < zone_cells_[z].end; c += 8) {
+      const int count = std::min<int>(8, zone_cells_[z].end - c);
+      Pack grid[3], columns[8];
+      grid_velocity.at(&mesh_.centroid[c], count, grid);
+      load_columns(values + 5 * c, count, columns);
+      if (!dq) {
+        Pack out[8];
+        make_rows(columns, grid, use_mach, model_.gamma, out);
+        store_rows(out, count, &rows[c]);
+      } else {
+        Pack along[8], part[8];
+        load_columns(derivatives + 5 * c, count, along);
+        Dual<Pack> dual[5], out[8];
+        for (int k = 0; k < 5; ++k) dual[k] = {columns[k], along[k]};
+        make_rows(dual, grid, use_mach, model_.gamma, out);
+        for (int k = 0; k < 8; ++k) part[k] = out[k].d;
+        store_rows(part, count, &rows[c]);
+      }
+    }
+  }
+  petsc(VecRestoreArrayRead(q, &values));
+  if (dq) petsc(VecRestoreArrayRead(*dq, &derivatives));
+  exchange(rows);
+}
+
+void EulerOperator::exchange(std::vector<Row>& rows) const {
+  MPI_Datatype row;
+  MPI_Type_contiguous(8, MPI_DOUBLE, &row);
+  MPI_Type_commit(&row);
+  petsc(PetscSFBcastBegin(mesh_.halo, row, rows.data(), rows.data(), MPI_REPLACE));
+  petsc(PetscSFBcastEnd(mesh_.halo, row, rows.data(), rows.data(), MPI_REPLACE));
+  MPI_Type_free(&row);
+}
+
+void EulerOperator::update_gradients(const std::vector<Row>& rows, std::vector<GradientRow>& gradients) const {
+  if (green_gauss_) green_gauss_->apply(rows.data(), gradients.data());
+  if (least_squares_) least_squares_->apply(rows.data(), gradients.data());
+}
+
+FaceInput EulerOperator::face_input(const FrameState& frame) const {
+  FaceInput in;
+  in.cells = cells_.data();
+  in.gradients = gradients_.data();
+  in.d_cells = d_cells_.data();
+  in.d_gradients = d_gradients_.data();
+  const Vec3 V = frame.R.transpose() * frame.V, omega = frame.R.transpose() * frame.omega;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) in.rotation[3 * i + j] = frame.R(i, j);
+    in.velocity[i] = V[i];
+    in.angular_velocity[i] = omega[i];
+  }
+  in.gamma = model_.gamma;
+  in.limiter_threshold = model_.limiter_epsilon * model_.limiter_epsilon;
+  in.far = model_.far;
+  return in;
+}
+
+void EulerOperator::store_rates(Vec out) const {
+  double* values = nullptr;
+  petsc(VecGetArrayWrite(out, &values));
+  for (mesh::Index c = 0; c < mesh_.n_owned; ++c)
+    for (int k = 0; k < kVariables; ++k) values[5 * c + k] = rates_[c].v[k];
+  petsc(VecRestoreArrayWrite(out, &values));
+}
+
+/// Rows and gradients of q.
+void EulerOperator::prepare(Vec q, const Frames& frames) {
+  load_cells(q, frames, nullptr, cells_);
+  update_gradients(cells_, gradients_);
+  frames_ = frames;
+}
+
+void EulerOperator::residual(Vec q, const Frames& frames, Vec out) {
+  prepare(q, frames);
+  std::fill(rates_.begin(), rates_.end(), Row{});
+  const int r = static_cast<int>(model_.reconstruction);
+  for_each_group(
+      frames,
+      [&](const FaceInput& in, const mesh::FaceBlock* blocks, int n) { model_.flux->residual[r](in, blocks, n, rates_.data()); },
+      [&](const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int n, int) {
+        kBoundaryKernels.residual[r](in, kind, blocks, n, rates_.data());
+      });
+  store_rates(out);
+}
+
+void EulerOperator::linearize(Vec q, const Frames& frames) {
+  petsc(VecCopy(q, base_));
+  prepare(q, frames);
+  d_cells_.resize(cells_.size());
+  d_gradients_.resize(gradients_.size());
+}
+
+void EulerOperator::derivative(Vec dq, Vec out) {
+  load_cells(base_, frames_, &dq, d_cells_);
+  update_gradients(d_cells_, d_gradients_);
+  std::fill(rates_.begin(), rates_.end(), Row{});
+  const int r = static_cast<int>(model_.reconstruction);
+  for_each_group(
+      frames_,
+      [&](const FaceInput& in, const mesh::FaceBlock* blocks, int n) { model_.flux->derivative[r](in, blocks, n, rates_.data()); },
+      [&](const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int n, int) {
+        kBoundaryKernels.derivative[r](in, kind, blocks, n, rates_.data());
+      });
+  store_rates(out);
+}
+
+}  // namespace windhover::fluid

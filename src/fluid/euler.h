@@ -1,0 +1,105 @@
+// The Euler equations on a rigidly moving mesh: rate of change of every cell, its derivative, its first-order Jacobian,
+// and the loads on the boundaries. Nondimensional throughout.
+#pragma once
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fluid/boundary_kernels.h"
+#include "fluid/gradient.h"
+#include "mesh/mesh.h"
+#include "mesh/motion.h"
+
+namespace windhover::fluid {
+
+enum class GradientKind { green_gauss, least_squares };
+
+/// What is solved; names are resolved before this.
+struct FlowModel {
+  double gamma = 1.4;
+  const FluxKernels* flux = &kRoeKernels;
+  bool low_mach = true;
+  Reconstruction reconstruction = Reconstruction::linear;
+  GradientKind gradient = GradientKind::green_gauss;
+  double limiter_epsilon = 0.01;  ///< differences below this (of the reference state) are not limited
+  State<double> far{1.0, 0.0, 0.0, 0.0, 1.0 / 1.4};
+  std::map<std::string, BoundaryKind> boundary;  ///< by patch name; every patch of the mesh must be here
+};
+
+/// Frames of all zones at one time.
+using Frames = std::vector<mesh::FrameState>;
+
+/// What passes through one patch per unit time, summed over ranks, inertial axes.
+struct PatchFlux {
+  Flux<double> flux{};                            ///< leaving the fluid; on walls momentum is the pressure force on the wall
+  mesh::Vec3 force = mesh::Vec3::Zero();          ///< of the pressure above the far field's, on what lies outside
+  mesh::Vec3 moment = mesh::Vec3::Zero();         ///< of that force about the inertial origin
+};
+
+class EulerOperator {
+ public:
+  EulerOperator(const mesh::Mesh& mesh, FlowModel model);
+
+  const mesh::Mesh& mesh() const { return mesh_; }
+  const FlowModel& model() const { return model_; }
+
+  /// A vector of conserved states: five per owned cell, block size 5.
+  VecHandle make_vector() const;
+
+  /// out = Σ_faces [F(q)·A − q v_g·A] per cell (what leaves, not divided by the volume).
+  void residual(Vec q, const Frames& frames, Vec out);
+
+  /// Fixes the state for derivative().
+  void linearize(Vec q, const Frames& frames);
+  /// out = d residual / dq · dq, exact (forward mode).
+  void derivative(Vec dq, Vec out);
+
+  /// A matrix with the pattern of face neighbours, 5x5 blocks, stored as MATBAIJ or MATAIJ.
+  MatHandle make_jacobian(MatType type) const;
+  /// matrix = scale · d(first-order residual)/dq + diagonal(volume · mass_scale).
+  void first_order_jacobian(Vec q, const Frames& frames, double scale, double mass_scale, Mat matrix);
+
+  /// One entry per mesh patch.
+  std::vector<PatchFlux> patch_fluxes(Vec q, const Frames& frames);
+  /// States at the face centroids of a patch, in the order of its blocks' lanes (owned by this rank).
+  std::vector<State<double>> patch_states(Vec q, const Frames& frames, int patch);
+
+  /// Largest acoustic Courant number (|u − v_g| + c) dt / h, h = volume over half the surface's projection; all ranks.
+  double courant_number(Vec q, const Frames& frames, double dt);
+
+ private:
+  void load_cells(Vec q, const Frames& frames, const Vec* dq, std::vector<Row>& rows);
+  void exchange(std::vector<Row>& rows) const;
+  void update_gradients(const std::vector<Row>& rows, std::vector<GradientRow>& gradients) const;
+  FaceInput face_input(const mesh::FrameState& frame) const;
+  /// Calls interior(input, blocks, count) for each zone and boundary(input, kind, blocks, count, patch) for each patch.
+  template <class Interior, class Boundary>
+  void for_each_group(const Frames& frames, Interior interior, Boundary boundary) const {
+    for (size_t z = 0; z < frames.size(); ++z) {
+      const mesh::Range& range = mesh_.zones[z].faces;
+      interior(face_input(frames[z]), mesh_.faces.data() + range.begin, static_cast<int>(range.size()));
+    }
+    for (size_t p = 0; p < mesh_.patches.size(); ++p) {
+      const mesh::Patch& patch = mesh_.patches[p];
+      boundary(face_input(frames[patch.zone]), patch_kind_[p], patch.blocks.data(),
+               static_cast<int>(patch.blocks.size()), static_cast<int>(p));
+    }
+  }
+  void store_rates(Vec out) const;
+  void prepare(Vec q, const Frames& frames);
+
+  const mesh::Mesh& mesh_;
+  FlowModel model_;
+  std::vector<BoundaryKind> patch_kind_;
+  std::vector<mesh::Range> zone_cells_;  ///< owned cells of each zone
+  std::optional<GreenGauss> green_gauss_;
+  std::optional<LeastSquares> least_squares_;
+  std::vector<Row> cells_, d_cells_, rates_;
+  std::vector<GradientRow> gradients_, d_gradients_;
+  Frames frames_;  ///< of the state in cells_
+  VecHandle base_;  ///< conserved state linearised about
+};
+
+}  // namespace windhover::fluid

@@ -1,0 +1,83 @@
+// What the flow does at its boundaries: loads, fluxes, surface states.
+#include <algorithm>
+#include <cmath>
+
+#include "fluid/euler.h"
+
+namespace windhover::fluid {
+
+using mesh::FaceBlock;
+using mesh::Vec3;
+
+namespace {
+
+Vec3 lane(const double field[3][mesh::kLanes], int i) { return {field[0][i], field[1][i], field[2][i]}; }
+
+State<double> lane(const State<Pack>& s, int i) { return {s.rho[i], s.u[i], s.v[i], s.w[i], s.p[i]}; }
+
+}  // namespace
+
+std::vector<PatchFlux> EulerOperator::patch_fluxes(Vec q, const Frames& frames) {
+  prepare(q, frames);
+  const int r = static_cast<int>(model_.reconstruction);
+  std::vector<PatchFlux> sums(mesh_.patches.size());
+  for_each_group(
+      frames, [](const FaceInput&, const FaceBlock*, int) {},
+      [&](const FaceInput& in, BoundaryKind kind, const FaceBlock* blocks, int n, int p) {
+        const mesh::FrameState& frame = frames[mesh_.patches[p].zone];
+        PatchFlux& sum = sums[p];
+        for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
+          const State<Pack> states = kBoundaryKernels.state[r](in, kind, *b);
+          const FaceGeometry face = face_geometry(in, *b);
+          const Flux<Pack> flux = face.area * physical_flux(states, face.normal, in.gamma);
+          for (int i = 0; i < b->count; ++i) {
+            sum.flux = sum.flux + Flux<double>{flux.mass[i], flux.x[i], flux.y[i], flux.z[i], flux.energy[i]};
+            const double gauge = states.p[i] - model_.far.p;
+            const Vec3 force = gauge * (frame.R * lane(b->area, i));
+            sum.force += force;
+            sum.moment += gauge * (frame.R * lane(b->moment, i)) + frame.x.cross(force);
+          }
+        }
+      });
+  static_assert(sizeof(PatchFlux) == 11 * sizeof(double));
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(11 * sums.size()), MPI_DOUBLE, MPI_SUM, mesh_.comm);
+  return sums;
+}
+
+std::vector<State<double>> EulerOperator::patch_states(Vec q, const Frames& frames, int patch) {
+  prepare(q, frames);
+  const int r = static_cast<int>(model_.reconstruction);
+  const auto& p = mesh_.patches[patch];
+  const FaceInput in = face_input(frames[p.zone]);
+  std::vector<State<double>> states;
+  for (const FaceBlock& b : p.blocks) {
+    const State<Pack> s = kBoundaryKernels.state[r](in, patch_kind_[patch], b);
+    for (int i = 0; i < b.count; ++i) states.push_back(lane(s, i));
+  }
+  return states;
+}
+
+double EulerOperator::courant_number(Vec q, const Frames& frames, double dt) {
+  load_cells(q, frames, nullptr, cells_);
+  std::vector<double> rate(mesh_.n_gradient, 0.0);  // Σ_faces (|u_n − v_g·n| + c) |A|
+  const auto add = [&](const FaceInput& in, const FaceBlock* blocks, int n, int sides) {
+    for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
+      const FaceGeometry face = face_geometry(in, *b);
+      for (int side = 0; side < sides; ++side) {
+        const State<Pack> s = face_side<Reconstruction::first_order, Pack>(in, *b, side, true).state;
+        const Pack speed =
+            absolute(normal_speed(s, face.normal) - face.normal.grid_speed) + sqrt(in.gamma * s.p / s.rho);
+        for (int i = 0; i < b->count; ++i) rate[b->cell[side][i]] += (face.area * speed)[i];
+      }
+    }
+  };
+  for_each_group(
+      frames, [&](const FaceInput& in, const FaceBlock* blocks, int n) { add(in, blocks, n, 2); },
+      [&](const FaceInput& in, BoundaryKind, const FaceBlock* blocks, int n, int) { add(in, blocks, n, 1); });
+  double largest = 0;
+  for (mesh::Index c = 0; c < mesh_.n_owned; ++c) largest = std::max(largest, 0.5 * dt * rate[c] / mesh_.volume[c]);
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm);
+  return largest;
+}
+
+}  // namespace windhover::fluid

@@ -1,0 +1,183 @@
+#include "fluid/newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace windhover::fluid {
+namespace {
+
+/// 2-norm over all cells of the surface area times the far field's pressure: the size of what cancels in R.
+double surface_norm(const mesh::Mesh& mesh, double pressure) {
+  std::vector<double> surface(mesh.n_gradient, 0.0);
+  const auto add = [&](const std::vector<mesh::FaceBlock>& blocks, int sides) {
+    for (const auto& b : blocks)
+      for (int i = 0; i < b.count; ++i)
+        for (int s = 0; s < sides; ++s)
+          surface[b.cell[s][i]] += std::hypot(b.area[0][i], b.area[1][i], b.area[2][i]);
+  };
+  add(mesh.faces, 2);
+  for (const auto& patch : mesh.patches) add(patch.blocks, 1);
+  double sum = 0;
+  for (mesh::Index c = 0; c < mesh.n_owned; ++c) sum += surface[c] * surface[c];
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, mesh.comm);
+  return pressure * std::sqrt(sum);
+}
+
+constexpr double kRoundOff = 3e-15;
+constexpr double kLeastFraction = 0.2;  // density and pressure keep at least this much of themselves in one update
+
+bool keeps_positive(const double* q, const double* change, double fraction, double gamma) {
+  double next[kVariables];
+  for (int k = 0; k < kVariables; ++k) next[k] = q[k] - fraction * change[k];
+  return next[0] > kLeastFraction * q[0] && primitive(next, gamma).p > kLeastFraction * primitive(q, gamma).p;
+}
+
+}  // namespace
+
+NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options) : euler_(euler), options_(options) {
+  const mesh::Mesh& mesh = euler.mesh();
+  volume_ = euler.make_vector();
+  residual_ = euler.make_vector();
+  work_ = euler.make_vector();
+  double* v = nullptr;
+  petsc(VecGetArrayWrite(volume_, &v));
+  for (mesh::Index i = 0; i < kVariables * mesh.n_owned; ++i) v[i] = mesh.volume[i / kVariables];
+  petsc(VecRestoreArrayWrite(volume_, &v));
+  petsc(VecNorm(volume_, NORM_2, &volume_norm_));
+  surface_norm_ = surface_norm(mesh, euler.model().far.p);
+
+  petsc(SNESCreate(mesh.comm, snes_.out()));
+  petsc(SNESSetOptionsPrefix(snes_, "fluid_"));
+  petsc(SNESSetFunction(snes_, residual_, form_function, this));
+  const PetscInt n = kVariables * mesh.n_owned;
+  if (options_.exact_jacobian) {
+    petsc(MatCreateShell(mesh.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, this, product_.out()));
+    petsc(MatShellSetOperation(product_, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
+  } else {
+    petsc(MatCreateSNESMF(snes_, product_.out()));
+  }
+  if (options_.preconditioner->assembled) assembled_ = euler.make_jacobian(options_.preconditioner->matrix);
+  petsc(SNESSetJacobian(snes_, product_, assembled_ ? Mat(assembled_) : Mat(product_), form_jacobian, this));
+  petsc(SNESSetType(snes_, SNESNEWTONLS));
+  petsc(SNESSetConvergenceTest(snes_, test_convergence, this, nullptr));
+  petsc(SNESSetTolerances(snes_, 0, 0, 0, options_.max_iterations, PETSC_MAX_INT));
+  petsc(SNESSetMaxLinearSolveFailures(snes_, options_.max_iterations));  // Newton judges, not the inner solve
+  SNESLineSearch search = nullptr;
+  petsc(SNESGetLineSearch(snes_, &search));
+  petsc(SNESLineSearchSetType(search, SNESLINESEARCHBT));
+  petsc(SNESLineSearchSetPreCheck(search, limit_update, this));
+  if (options_.eisenstat_walker) {
+    petsc(SNESKSPSetUseEW(snes_, PETSC_TRUE));
+    petsc(SNESKSPSetParametersEW(snes_, 2, options_.krylov_tolerance, 0.3, 0.9, 2.0, PETSC_DEFAULT, PETSC_DEFAULT));
+  }
+  KSP ksp = nullptr;
+  PC pc = nullptr;
+  petsc(SNESGetKSP(snes_, &ksp));
+  petsc(KSPSetType(ksp, KSPFGMRES));
+  petsc(KSPGMRESSetRestart(ksp, options_.krylov_restart));
+  petsc(KSPSetTolerances(ksp, options_.krylov_tolerance, 0, PETSC_DEFAULT, options_.krylov_iterations));
+  petsc(KSPGetPC(ksp, &pc));
+  int ranks = 1;
+  MPI_Comm_size(mesh.comm, &ranks);
+  options_.preconditioner->set_up(pc, options_.ilu_levels, ranks);
+  petsc(SNESSetFromOptions(snes_));
+}
+
+NewtonReport NewtonKrylov::solve(const StageEquation& equation, Vec q, double reference) {
+  equation_ = &equation;
+  reference_ = reference;
+  report_ = {};
+  krylov_before_ = 0;
+  started_ = MPI_Wtime();
+  const PetscErrorCode code = SNESSolve(snes_, nullptr, q);
+  guard_.rethrow();
+  petsc(code);
+  SNESConvergedReason reason;
+  petsc(SNESGetConvergedReason(snes_, &reason));
+  report_.converged = reason > 0;
+  report_.reason = SNESConvergedReasons[reason];
+  for (const auto& i : report_.iterations) report_.krylov += i.krylov;
+  return report_;
+}
+
+/// f = mass V x + rate R(x) + known
+void NewtonKrylov::evaluate(Vec x, Vec f) {
+  euler_.residual(x, equation_->frames, f);
+  petsc(VecPointwiseMult(work_, volume_, x));
+  petsc(VecAXPBYPCZ(f, equation_->mass, 1.0, equation_->rate, work_, equation_->known));
+}
+
+PetscErrorCode NewtonKrylov::form_function(SNES, Vec x, Vec f, void* context) {
+  auto& self = *static_cast<NewtonKrylov*>(context);
+  return self.guard_.run([&] { self.evaluate(x, f); });
+}
+
+PetscErrorCode NewtonKrylov::form_jacobian(SNES, Vec x, Mat j, Mat p, void* context) {
+  auto& self = *static_cast<NewtonKrylov*>(context);
+  return self.guard_.run([&] {
+    const StageEquation& e = *self.equation_;
+    if (self.assembled_ && self.rebuild_) {
+      self.euler_.first_order_jacobian(x, e.frames, e.rate, e.mass, p);
+      self.rebuild_ = false;
+    }
+    if (self.options_.exact_jacobian) self.euler_.linearize(x, e.frames);
+    petsc(MatAssemblyBegin(j, MAT_FINAL_ASSEMBLY));
+    petsc(MatAssemblyEnd(j, MAT_FINAL_ASSEMBLY));
+  });
+}
+
+PetscErrorCode NewtonKrylov::multiply(Mat matrix, Vec x, Vec y) {
+  void* context = nullptr;
+  PetscErrorCode code = MatShellGetContext(matrix, &context);
+  if (code) return code;
+  auto& self = *static_cast<NewtonKrylov*>(context);
+  return self.guard_.run([&] {
+    self.euler_.derivative(x, y);
+    petsc(VecPointwiseMult(self.work_, self.volume_, x));
+    petsc(VecAXPBY(y, self.equation_->mass, self.equation_->rate, self.work_));
+  });
+}
+
+PetscErrorCode NewtonKrylov::limit_update(SNESLineSearch, Vec x, Vec y, PetscBool* changed, void* context) {
+  auto& self = *static_cast<NewtonKrylov*>(context);
+  return self.guard_.run([&] {
+    const double *q = nullptr, *change = nullptr;
+    petsc(VecGetArrayRead(x, &q));
+    petsc(VecGetArrayRead(y, &change));
+    double fraction = 1.0;
+    for (mesh::Index c = 0; c < self.euler_.mesh().n_owned && fraction > 1e-6; ++c)
+      while (fraction > 1e-6 && !keeps_positive(q + 5 * c, change + 5 * c, fraction, self.euler_.model().gamma))
+        fraction *= 0.5;
+    petsc(VecRestoreArrayRead(x, &q));
+    petsc(VecRestoreArrayRead(y, &change));
+    MPI_Allreduce(MPI_IN_PLACE, &fraction, 1, MPI_DOUBLE, MPI_MIN, self.euler_.mesh().comm);
+    *changed = fraction < 1.0 ? PETSC_TRUE : PETSC_FALSE;
+    if (*changed) petsc(VecScale(y, fraction));
+  });
+}
+
+PetscErrorCode NewtonKrylov::test_convergence(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal norm,
+                                              SNESConvergedReason* reason, void* context) {
+  auto& self = *static_cast<NewtonKrylov*>(context);
+  return self.guard_.run([&] {
+    PetscInt krylov = 0;
+    petsc(SNESGetLinearSolveIterations(snes, &krylov));
+    self.report_.iterations.push_back({norm, static_cast<int>(krylov) - self.krylov_before_, MPI_Wtime() - self.started_});
+    self.krylov_before_ = static_cast<int>(krylov);
+    if (iteration == 0) {
+      const double floor = kRoundOff * (self.equation_->mass * self.volume_norm_ + self.equation_->rate * self.surface_norm_);
+      self.target_ = std::max(self.options_.tolerance * std::max(norm, self.reference_), floor);
+    }
+    *reason = SNES_CONVERGED_ITERATING;
+    if (!std::isfinite(norm))
+      *reason = SNES_DIVERGED_FNORM_NAN;
+    else if (norm <= self.target_)
+      *reason = SNES_CONVERGED_FNORM_RELATIVE;
+    else if (norm > 1e4 * std::max(self.report_.iterations.front().residual, self.reference_))
+      *reason = SNES_DIVERGED_DTOL;
+    else if (iteration >= self.options_.max_iterations)
+      *reason = SNES_DIVERGED_MAX_IT;
+  });
+}
+
+}  // namespace windhover::fluid

@@ -1,0 +1,80 @@
+// One implicit stage by Newton–Krylov (SNES, flexible GMRES).
+#pragma once
+#include <string>
+#include <vector>
+
+#include "base/petsc.h"
+#include "fluid/euler.h"
+#include "fluid/preconditioner.h"
+
+namespace windhover::fluid {
+
+struct NewtonOptions {
+  const Preconditioner* preconditioner = &kPreconditioners[0];
+  int ilu_levels = 0;
+  bool exact_jacobian = true;     ///< products by forward mode, else by differences
+  double tolerance = 1e-3;        ///< of the residual, relative to the rate of change of the flow
+  int max_iterations = 12;
+  bool eisenstat_walker = true;
+  double krylov_tolerance = 0.1;  ///< without Eisenstat–Walker; with it: of the first iteration
+  int krylov_iterations = 200;
+  int krylov_restart = 30;
+};
+
+/// F(q) = mass V q + rate R(q, frames) + known = 0.
+struct StageEquation {
+  double mass = 0, rate = 0;
+  Vec known = nullptr;
+  Frames frames;
+};
+
+struct NewtonIteration {
+  double residual = 0;  ///< 2-norm after the iteration
+  int krylov = 0;
+  double seconds = 0;
+};
+
+struct NewtonReport {
+  bool converged = false;
+  std::string reason;  ///< PETSc's words
+  int krylov = 0;      ///< sum
+  std::vector<NewtonIteration> iterations;  ///< entry 0: the starting residual
+};
+
+class NewtonKrylov {
+ public:
+  NewtonKrylov(EulerOperator& euler, const NewtonOptions& options);
+  NewtonKrylov(const NewtonKrylov&) = delete;
+  NewtonKrylov& operator=(const NewtonKrylov&) = delete;
+
+  /// The preconditioner is made anew in the next solve.
+  void rebuild_preconditioner() { rebuild_ = true; }
+
+  /// q: first guess in, solution out. Converged: |F| <= tolerance * max(|F(guess)|, reference), or at round-off.
+  NewtonReport solve(const StageEquation& equation, Vec q, double reference);
+
+ private:
+  static PetscErrorCode form_function(SNES, Vec x, Vec f, void* self);
+  static PetscErrorCode form_jacobian(SNES, Vec x, Mat j, Mat p, void* self);
+  static PetscErrorCode multiply(Mat, Vec x, Vec y);
+  static PetscErrorCode limit_update(SNESLineSearch, Vec x, Vec y, PetscBool* changed, void* self);
+  static PetscErrorCode test_convergence(SNES, PetscInt, PetscReal, PetscReal, PetscReal, SNESConvergedReason*, void* self);
+  void evaluate(Vec x, Vec f);
+
+  EulerOperator& euler_;
+  NewtonOptions options_;
+  CallbackGuard guard_;
+  VecHandle volume_;  ///< per unknown
+  VecHandle residual_, work_;
+  MatHandle product_, assembled_;
+  SnesHandle snes_;
+  double volume_norm_ = 0, surface_norm_ = 0;  ///< sizes of the terms, for the round-off floor
+  const StageEquation* equation_ = nullptr;
+  double reference_ = 0, target_ = 0;
+  double started_ = 0;
+  int krylov_before_ = 0;
+  bool rebuild_ = true;
+  NewtonReport report_;
+};
+
+}  // namespace windhover::fluid

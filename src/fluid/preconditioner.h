@@ -1,0 +1,22 @@
+// Preconditioners by name: how a KSP is set up around the assembled first-order Jacobian.
+#pragma once
+#include <string>
+
+#include "base/petsc.h"
+
+namespace windhover::fluid {
+
+struct Preconditioner {
+  const char* name;
+  bool assembled;   ///< needs the first-order Jacobian
+  MatType matrix;   ///< its storage
+  void (*set_up)(PC pc, int ilu_levels, int ranks);  ///< called once; solvers' options still override
+};
+
+/// ilu (block Jacobi over ranks), asm (overlap one), point_block_jacobi, lu (UMFPACK, whole problem on every rank), none.
+extern const Preconditioner kPreconditioners[5];
+
+/// UserError naming the valid ones when there is no such one.
+const Preconditioner& preconditioner(const std::string& name);
+
+}  // namespace windhover::fluid
