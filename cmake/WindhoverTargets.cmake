@@ -31,6 +31,7 @@ function(windhover_test folder)
   endif()
   add_executable(test_${folder} ${sources} ${CMAKE_SOURCE_DIR}/tests/main.cpp)
   target_link_libraries(test_${folder} PRIVATE windhover_flags ${ARG_LIBS})
+  target_include_directories(test_${folder} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
   target_compile_definitions(test_${folder} PRIVATE
     WINDHOVER_SOURCE_DIR="${CMAKE_SOURCE_DIR}" WINDHOVER_BINARY_DIR="${CMAKE_BINARY_DIR}")
   foreach(ranks ${ARG_RANKS})

@@ -1,0 +1,161 @@
+#include "mesh/distribute.h"
+
+#include <petscpartitioner.h>
+
+#include <algorithm>
+
+#include "mesh/cell_shape.h"
+
+namespace windhover::mesh {
+namespace {
+
+using PartitionerHandle = Handle<PetscPartitioner, PetscPartitionerDestroy>;
+using SectionHandle = Handle<PetscSection, PetscSectionDestroy>;
+
+/// Collective; the result is on rank 0: which rank gets each cell.
+std::vector<int> partition(const std::vector<FileCell>& cells, int n_ranks, MPI_Comm comm) {
+  std::vector<PetscInt> start{0}, neighbours;
+  for (const FileCell& cell : cells) {
+    for (const FileSide& side : cell.sides)
+      if (side.neighbour >= 0) neighbours.push_back(side.neighbour);
+    start.push_back(static_cast<PetscInt>(neighbours.size()));
+  }
+  PartitionerHandle partitioner;
+  petsc(PetscPartitionerCreate(comm, partitioner.out()));
+  petsc(PetscPartitionerSetType(partitioner, PETSCPARTITIONERPTSCOTCH));
+  SectionHandle parts;
+  petsc(PetscSectionCreate(comm, parts.out()));
+  IsHandle sorted;
+  petsc(PetscPartitionerPartition(partitioner, n_ranks, static_cast<PetscInt>(cells.size()), start.data(),
+                                  neighbours.data(), nullptr, nullptr, parts, sorted.out()));
+  std::vector<int> rank_of(cells.size());
+  const PetscInt* list = nullptr;
+  petsc(ISGetIndices(sorted, &list));
+  for (int rank = 0; rank < n_ranks; ++rank) {
+    PetscInt count = 0, offset = 0;
+    petsc(PetscSectionGetDof(parts, rank, &count));
+    petsc(PetscSectionGetOffset(parts, rank, &offset));
+    for (PetscInt i = 0; i < count; ++i) rank_of[list[offset + i]] = rank;
+  }
+  petsc(ISRestoreIndices(sorted, &list));
+  return rank_of;
+}
+
+/// Cuts the parts of one rank after the other out of the whole mesh (on rank 0).
+class PartCutter {
+ public:
+  PartCutter(const std::vector<FileCell>& cells, const std::vector<int>& rank_of, int n_ranks)
+      : cells_(cells), rank_of_(rank_of), owned_(n_ranks), position_in_owner_(cells.size()), position_(cells.size(), -1) {
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      auto& list = owned_[rank_of[c]];
+      position_in_owner_[c] = static_cast<PetscInt>(list.size());
+      list.push_back(static_cast<Index>(c));
+    }
+    find_cells_of_nodes();
+  }
+
+  MeshPart cut(int rank) {
+    MeshPart part;
+    chosen_ = owned_[rank];
+    for (std::size_t i = 0; i < chosen_.size(); ++i) position_[chosen_[i]] = static_cast<Index>(i);
+    part.n_owned = static_cast<Index>(chosen_.size());
+    for (Index i = 0; i < part.n_owned; ++i)
+      for (const FileSide& side : cells_[chosen_[i]].sides)
+        if (side.neighbour >= 0) choose(side.neighbour);
+    part.n_gradient = static_cast<Index>(chosen_.size());
+    for (Index i = 0; i < part.n_gradient; ++i) choose_around_nodes(chosen_[i]);
+    for (const Index c : chosen_) {
+      part.cells.push_back(cells_[c]);
+      part.owner.push_back({rank_of_[c], position_in_owner_[c]});
+      for (FileSide& side : part.cells.back().sides)
+        if (side.neighbour >= 0) side.neighbour = position_[side.neighbour];
+    }
+    for (const Index c : chosen_) position_[c] = -1;
+    return part;
+  }
+
+ private:
+  void find_cells_of_nodes() {
+    for (const FileCell& cell : cells_)
+      for (int i = 0; i < point_count(cell.type); ++i) {
+        const auto node = static_cast<std::size_t>(cell.corners[i].node);
+        if (node_start_.size() < node + 2) node_start_.resize(node + 2, 0);
+        ++node_start_[node + 1];
+      }
+    for (std::size_t n = 1; n < node_start_.size(); ++n) node_start_[n] += node_start_[n - 1];
+    node_cells_.resize(node_start_.empty() ? 0 : node_start_.back());
+    std::vector<std::size_t> next = node_start_;
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+      for (int i = 0; i < point_count(cells_[c].type); ++i)
+        node_cells_[next[cells_[c].corners[i].node]++] = static_cast<Index>(c);
+  }
+  void choose(Index c) {
+    if (position_[c] >= 0) return;
+    position_[c] = static_cast<Index>(chosen_.size());
+    chosen_.push_back(c);
+  }
+  void choose_around_nodes(Index c) {
+    for (int i = 0; i < point_count(cells_[c].type); ++i) {
+      const PetscInt node = cells_[c].corners[i].node;
+      for (std::size_t k = node_start_[node]; k < node_start_[node + 1]; ++k) choose(node_cells_[k]);
+    }
+  }
+
+  const std::vector<FileCell>& cells_;
+  const std::vector<int>& rank_of_;
+  std::vector<std::vector<Index>> owned_;   // of each rank
+  std::vector<PetscInt> position_in_owner_;
+  std::vector<Index> position_;             // in the part being cut, -1 outside
+  std::vector<Index> chosen_;               // cells of the part being cut
+  std::vector<std::size_t> node_start_;
+  std::vector<Index> node_cells_;
+};
+
+/// A vector of plain records as MPI sees it: counts in records, so that large parts stay below the limit of int.
+class RecordType {
+ public:
+  explicit RecordType(std::size_t bytes) {
+    MPI_Type_contiguous(static_cast<int>(bytes), MPI_BYTE, &type_);
+    MPI_Type_commit(&type_);
+  }
+  ~RecordType() { MPI_Type_free(&type_); }
+  RecordType(const RecordType&) = delete;
+  RecordType& operator=(const RecordType&) = delete;
+  operator MPI_Datatype() const { return type_; }
+
+ private:
+  MPI_Datatype type_ = MPI_DATATYPE_NULL;
+};
+
+void send(const MeshPart& part, int rank, MPI_Comm comm) {
+  const RecordType cell(sizeof(FileCell)), node(sizeof(PetscSFNode));
+  const Index sizes[3] = {static_cast<Index>(part.cells.size()), part.n_owned, part.n_gradient};
+  MPI_Send(sizes, 3, MPIU_INT, rank, 0, comm);
+  MPI_Send(part.cells.data(), static_cast<int>(sizes[0]), cell, rank, 0, comm);
+  MPI_Send(part.owner.data(), static_cast<int>(sizes[0]), node, rank, 0, comm);
+}
+
+MeshPart receive(MPI_Comm comm) {
+  const RecordType cell(sizeof(FileCell)), node(sizeof(PetscSFNode));
+  Index sizes[3];
+  MPI_Recv(sizes, 3, MPIU_INT, 0, 0, comm, MPI_STATUS_IGNORE);
+  MeshPart part{std::vector<FileCell>(sizes[0]), std::vector<PetscSFNode>(sizes[0]), sizes[1], sizes[2]};
+  MPI_Recv(part.cells.data(), static_cast<int>(sizes[0]), cell, 0, 0, comm, MPI_STATUS_IGNORE);
+  MPI_Recv(part.owner.data(), static_cast<int>(sizes[0]), node, 0, 0, comm, MPI_STATUS_IGNORE);
+  return part;
+}
+
+}  // namespace
+
+MeshPart distribute(const std::vector<FileCell>& cells, MPI_Comm comm) {
+  int rank = 0, n_ranks = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &n_ranks);
+  const std::vector<int> rank_of = partition(cells, n_ranks, comm);
+  if (rank != 0) return receive(comm);
+  PartCutter cutter(cells, rank_of, n_ranks);
+  for (int other = 1; other < n_ranks; ++other) send(cutter.cut(other), other, comm);
+  return cutter.cut(0);
+}
+
+}  // namespace windhover::mesh

@@ -1,0 +1,20 @@
+// From the whole mesh on rank 0 to a part on each rank: its own cells and the halo around them.
+#pragma once
+#include <vector>
+
+#include "mesh/file_mesh.h"
+
+namespace windhover::mesh {
+
+/// Cells of one rank in no particular order: owned, then halo cells behind a face, then halo cells behind a node (see
+/// Mesh). Neighbours are positions in this list, -1 where the neighbour is not in it.
+struct MeshPart {
+  std::vector<FileCell> cells;
+  std::vector<PetscSFNode> owner;  ///< of each cell: rank, and position in that rank's list
+  Index n_owned = 0, n_gradient = 0;
+};
+
+/// Collective. The cells are given on rank 0; divided by PTSCOTCH over the face neighbours.
+MeshPart distribute(const std::vector<FileCell>& cells, MPI_Comm comm);
+
+}  // namespace windhover::mesh

@@ -1,0 +1,20 @@
+// The final order of the cells on a rank, and their numbers over all ranks.
+#pragma once
+#include <vector>
+
+#include "mesh/distribute.h"
+
+namespace windhover::mesh {
+
+struct Numbering {
+  std::vector<Index> cell;       ///< [local] position in the part
+  std::vector<Index> local;      ///< [position in the part] local number
+  std::vector<PetscInt> global;  ///< [local] solver-global number
+  PetscInt first_global = 0;
+  SfHandle halo;  ///< as in Mesh
+};
+
+/// Collective. Owned cells by zone, within a zone by reverse Cuthill-McKee; halo cells by their global numbers.
+Numbering number_cells(const MeshPart& part, MPI_Comm comm);
+
+}  // namespace windhover::mesh
