@@ -26,16 +26,16 @@ Mat3 pseudo_inverse(const Mat3& a) {
 /// Green–Gauss coefficients of a cell's points: gradient = Σ coefficient_j value_j. Faces are fans of triangles about the
 /// mean of their points (as in the geometry of the faces), values linear on each triangle.
 void green_gauss_coefficients(mesh::CellType type, const Vec3* points, double volume, Vec3* coefficient) {
-  for (int j = 0; j < mesh::corners_of(type); ++j) coefficient[j].setZero();
-  for (const mesh::FaceShape& face : mesh::faces_of(type)) {
+  for (int j = 0; j < mesh::point_count(type); ++j) coefficient[j].setZero();
+  for (const mesh::ShapeFace& face : mesh::faces_of(type)) {
     Vec3 apex = Vec3::Zero();
-    for (int i = 0; i < face.size; ++i) apex += points[face.corner[i]] / face.size;
-    for (int i = 0; i < face.size; ++i) {
-      const int a = face.corner[i], b = face.corner[(i + 1) % face.size];
+    for (int i = 0; i < face.n; ++i) apex += points[face.point[i]] / face.n;
+    for (int i = 0; i < face.n; ++i) {
+      const int a = face.point[i], b = face.point[(i + 1) % face.n];
       const Vec3 third = (points[a] - apex).cross(points[b] - apex) / (6.0 * volume);  // area / 3 of the triangle
       coefficient[a] += third;
       coefficient[b] += third;
-      for (int k = 0; k < face.size; ++k) coefficient[face.corner[k]] += third / face.size;
+      for (int k = 0; k < face.n; ++k) coefficient[face.point[k]] += third / face.n;
     }
   }
 }
@@ -93,7 +93,7 @@ GreenGauss::GreenGauss(const Mesh& m) {
   cell_start_.push_back(0);
   for (Index c = 0; c < m.n_gradient; ++c) {
     const Index first = m.cell_point_start[c];
-    const int n = mesh::corners_of(m.type[c]);
+    const int n = mesh::point_count(m.type[c]);
     Vec3 points[8], coefficient[8];
     for (int j = 0; j < n; ++j) points[j] = m.point[m.cell_point[first + j]] - m.centroid[c];
     green_gauss_coefficients(m.type[c], points, m.volume[c], coefficient);

@@ -41,9 +41,9 @@ void for_each_quadrature_point(const mesh::Mesh& mesh, mesh::Index cell, Visit v
   const auto point = [&](int i) { return mesh.point[mesh.cell_point[first + i]]; };
   for (const auto& face : mesh::faces_of(mesh.type[cell])) {
     Vec3 apex = Vec3::Zero();
-    for (int i = 0; i < face.size; ++i) apex += point(face.corner[i]) / face.size;
-    for (int i = 0; i < face.size; ++i) {
-      const Vec3 corner[4] = {mesh.centroid[cell], apex, point(face.corner[i]), point(face.corner[(i + 1) % face.size])};
+    for (int i = 0; i < face.n; ++i) apex += point(face.point[i]) / face.n;
+    for (int i = 0; i < face.n; ++i) {
+      const Vec3 corner[4] = {mesh.centroid[cell], apex, point(face.point[i]), point(face.point[(i + 1) % face.n])};
       const double volume = (corner[1] - corner[0]).dot((corner[2] - corner[0]).cross(corner[3] - corner[0])) / 6;
       constexpr double a = 0.5854101966249685, b = 0.1381966011250105;  // Keast 1986, degree 2
       const Vec3 sum = b * (corner[0] + corner[1] + corner[2] + corner[3]);
