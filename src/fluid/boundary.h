@@ -43,15 +43,18 @@ State<T> farfield_state(const State<T>& s, const State<double>& far, const FaceN
   const T face_un = 0.5 * (outgoing + incoming);
   const T face_c = (0.5 / k) * (outgoing - incoming);
 
-  const auto leaves = lift(n.grid_speed) < face_un;
-  const T entropy_source_rho = select(leaves, s.rho, T(far.rho));
-  const T entropy_source_c2 = select(leaves, c * c, T(far_c * far_c));
-  // rho^(gamma-1) / c^2 is constant along with entropy
-  const T rho = entropy_source_rho * power(face_c * face_c / entropy_source_c2, 1.0 / (gamma - 1.0));
-  const T shift_in = face_un - un, shift_far = face_un - far_un;
-  return {rho, select(leaves, s.u + shift_in * n.x, far.u + shift_far * n.x),
-          select(leaves, s.v + shift_in * n.y, far.v + shift_far * n.y),
-          select(leaves, s.w + shift_in * n.z, far.w + shift_far * n.z), rho * face_c * face_c / gamma};
+  // upstream: 1 where the flow leaves. Rounded off about zero, for the pressure depends on which entropy is taken and
+  // Newton's method cannot cross a jump.
+  const T x = (face_un - lift(n.grid_speed)) / (0.02 * far_c);
+  const T inside = 0.5 + 0.5 * x / sqrt(1.0 + x * x);
+  const double far_entropy = far.p / std::pow(far.rho, gamma);
+  const T entropy = far_entropy + inside * (s.p / power(s.rho, gamma) - far_entropy);
+  const T rho = power(face_c * face_c / (gamma * entropy), 1.0 / (gamma - 1.0));
+  const T tangential_u = lift(far.u - far_un * n.x), tangential_v = lift(far.v - far_un * n.y),
+          tangential_w = lift(far.w - far_un * n.z);
+  return {rho, face_un * n.x + tangential_u + inside * (s.u - un * n.x - tangential_u),
+          face_un * n.y + tangential_v + inside * (s.v - un * n.y - tangential_v),
+          face_un * n.z + tangential_w + inside * (s.w - un * n.z - tangential_w), rho * face_c * face_c / gamma};
 }
 
 }  // namespace windhover::fluid

@@ -1,0 +1,144 @@
+// Whole steps: uniform flow stays uniform, closed boxes conserve, ranks and schemes agree.
+#include <catch2/catch.hpp>
+
+#include "flow_fixture.h"
+
+using namespace windhover;
+using namespace windhover::fluid;
+
+namespace {
+
+FlowOptions tight(const std::string& scheme) {
+  FlowOptions options;
+  options.scheme = &time_scheme(scheme);
+  options.newton.tolerance = 1e-13;
+  options.newton.max_iterations = 30;
+  options.newton.eisenstat_walker = false;
+  options.newton.krylov_tolerance = 1e-4;
+  return options;
+}
+
+/// Σ over cells of V q, all ranks; long double within a rank.
+std::array<double, 5> totals(const EulerOperator& euler, Vec q) {
+  const double* v = nullptr;
+  petsc(VecGetArrayRead(q, &v));
+  std::array<double, 5> sum{};
+  for (int k = 0; k < 5; ++k) {
+    long double s = 0;
+    for (mesh::Index c = 0; c < euler.mesh().n_owned; ++c) s += (long double)(euler.mesh().volume[c]) * v[5 * c + k];
+    sum[k] = static_cast<double>(s);
+  }
+  petsc(VecRestoreArrayRead(q, &v));
+  MPI_Allreduce(MPI_IN_PLACE, sum.data(), 5, MPI_DOUBLE, MPI_SUM, euler.mesh().comm);
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("uniform flow through a tumbling, translating mixed mesh stays uniform", "[flow][uniform]") {
+  const std::string scheme = GENERATE("crank_nicolson", "backward_euler", "bdf2", "sdirk2", "ssp_rk3");
+  CAPTURE(scheme);
+  const mesh::Mesh mesh = mesh::read_mesh(make_mesh("mixed", {{"distortion", 0.2}}), 1.0, PETSC_COMM_WORLD);
+  FlowModel model = model_for(mesh);
+  model.far = {1.0, 0.3, -0.2, 0.1, 1 / 1.4};
+  EulerOperator euler(mesh, model);
+  FlowSolver solver(euler, tight(scheme));
+  const FrameFunction frames = frames_of(mesh, tumbling());
+  set_initial(euler, frames(0), uniform_state(model.far), solver.state().q);
+  VecHandle start = euler.make_vector();
+  petsc(VecCopy(solver.state().q, start));
+  // acoustic Courant number 50; the explicit scheme at its limit
+  const double courant = time_scheme(scheme).implicit ? 50 : 0.8;
+  const double dt = courant / euler.courant_number(start, frames(0), 1.0);
+  for (int step = 0; step < 100; ++step) REQUIRE(solver.advance(frames, dt).accepted);
+  CHECK(distance(solver.state().q, start, NORM_INFINITY) < 1e-12);
+}
+
+TEST_CASE("a closed box conserves mass, momentum with the walls' force, and energy with their work", "[flow][closed]") {
+  const std::string scheme = GENERATE("crank_nicolson", "backward_euler", "ssp_rk3");
+  CAPTURE(scheme);
+  const mesh::Mesh mesh = mesh::read_mesh(make_mesh("mixed", {{"distortion", 0.2}}), 1.0, PETSC_COMM_WORLD);
+  EulerOperator euler(mesh, closed_box(mesh));
+  const FlowOptions options = tight(scheme);
+  FlowSolver solver(euler, options);
+  const FrameFunction frames = frames_of(mesh, tumbling(0.15));
+  // a jump inside a box that moves: strong waves, walls that do work
+  const State<double> left{1.0, 0, 0, 0, 1 / 1.4}, right{0.7, 0.1, 0, 0, 0.8 / 1.4};
+  set_initial(euler, frames(0), riemann_state(mesh::Vec3(1, 0.5, 0.2), 0.9, left, right), solver.state().q);
+  const double courant = options.scheme->implicit ? 10 : 0.8;
+  const double dt = courant / euler.courant_number(solver.state().q, frames(0), 1.0);
+  const auto before = totals(euler, solver.state().q);
+  std::array<double, 5> through{};  // what passed the walls
+  const auto add = [&](double weight, Vec q, double t) {
+    for (const auto& p : euler.patch_fluxes(q, frames(t))) {
+      const double f[5] = {p.flux.mass, p.flux.x, p.flux.y, p.flux.z, p.flux.energy};
+      for (int k = 0; k < 5; ++k) through[k] += weight * f[k];
+    }
+  };
+  for (int step = 0; step < 20; ++step) {
+    const double t = solver.state().time;
+    const bool half = scheme == "crank_nicolson";
+    if (half) add(0.5 * dt, solver.state().q, t);
+    const StepReport report = solver.advance(frames, dt);
+    INFO(report.reason);
+    REQUIRE(report.accepted);
+    if (options.scheme->implicit) add(half ? 0.5 * dt : dt, solver.state().q, t + dt);
+  }
+  const auto after = totals(euler, solver.state().q);
+  CHECK(std::abs(after[0] - before[0]) < 1e-12 * before[0]);
+  if (!options.scheme->implicit) return;  // its stages' wall fluxes are not at hand
+  for (int k = 1; k < 5; ++k) {
+    CAPTURE(k, before[k], after[k], through[k]);
+    CHECK(std::abs(after[k] - before[k] + through[k]) < 1e-12 * before[4]);
+  }
+}
+
+TEST_CASE("preconditioners, kinds of products and ranks lead to the same flow", "[flow]") {
+  const mesh::Mesh mesh = mesh::read_mesh(make_mesh("cube"), 1.0, PETSC_COMM_WORLD);
+  FlowModel model = model_for(mesh, {{"wall", BoundaryKind::wall}});
+  model.far = {1.0, 0.3, 0, 0, 1 / 1.4};
+  const auto run = [&](const Preconditioner& p, bool exact, bool eisenstat_walker) {
+    CAPTURE(p.name, exact, eisenstat_walker);
+    EulerOperator euler(mesh, model);
+    FlowOptions options = tight("crank_nicolson");
+    options.newton.preconditioner = &p;
+    options.newton.exact_jacobian = exact;
+    options.newton.eisenstat_walker = eisenstat_walker;
+    options.newton.tolerance = 1e-11;
+    FlowSolver solver(euler, options);
+    const FrameFunction frames = frames_of(mesh, {});
+    set_initial(euler, frames(0), vortex_state({0.5, 0.5, 0}, 2, 0.2, model.far, 1.4), solver.state().q);
+    for (int step = 0; step < 5; ++step) {
+      const StepReport report = solver.advance(frames, 0.1);
+      INFO(report.reason);
+      REQUIRE(report.accepted);
+    }
+    return std::move(solver.state().q);
+  };
+  const VecHandle reference = run(preconditioner("lu"), true, false);
+  for (const Preconditioner& p : kPreconditioners) {
+    CAPTURE(p.name);
+    CHECK(distance(run(p, true, false), reference, NORM_INFINITY) < 1e-9);
+  }
+  CHECK(distance(run(preconditioner("ilu"), false, false), reference, NORM_INFINITY) < 1e-9);
+  CHECK(distance(run(preconditioner("ilu"), true, true), reference, NORM_INFINITY) < 1e-9);
+}
+
+TEST_CASE("a step that cannot be solved is refused and leaves the state as it was", "[flow]") {
+  const mesh::Mesh mesh = mesh::read_mesh(make_mesh("cube"), 1.0, PETSC_COMM_WORLD);
+  EulerOperator euler(mesh, closed_box(mesh));
+  FlowOptions options;
+  options.newton.max_iterations = 1;
+  options.newton.tolerance = 1e-12;
+  FlowSolver solver(euler, options);
+  const FrameFunction frames = frames_of(mesh, {});
+  set_initial(euler, frames(0), riemann_state({1, 0, 0}, 0.5, {1, 0, 0, 0, 1}, {0.1, 0, 0, 0, 0.1}), solver.state().q);
+  VecHandle start = euler.make_vector();
+  petsc(VecCopy(solver.state().q, start));
+  const StepReport report = solver.advance(frames, 0.5);
+  CHECK_FALSE(report.accepted);
+  CHECK_FALSE(report.reason.empty());
+  CHECK(distance(solver.state().q, start) == 0);
+  CHECK(solver.state().time == 0);
+  CHECK(solver.state().step == 0);
+}
