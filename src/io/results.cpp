@@ -1,0 +1,21 @@
+#include "io/results.h"
+
+#include "base/collective.h"
+#include "io/file.h"
+
+namespace windhover::io {
+
+void prepare_results(const std::filesystem::path& directory, bool restart, MPI_Comm comm) {
+  on_root(comm, [&] {
+    if (!restart && std::filesystem::exists(directory / "history.csv"))
+      throw UserError("{}: holds the results of another run; give another folder with --out, or --restart to continue",
+                      directory.string());
+    make_folder(directory);
+  });
+}
+
+void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json, MPI_Comm comm) {
+  on_root(comm, [&] { write_atomically(file, json.dump(2) + "\n"); });
+}
+
+}  // namespace windhover::io

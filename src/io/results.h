@@ -1,0 +1,16 @@
+// The folder of a run's results.
+#pragma once
+#include <mpi.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace windhover::io {
+
+/// Makes the folder. UserError when it holds another run that this one does not continue. Collective.
+void prepare_results(const std::filesystem::path& directory, bool restart, MPI_Comm comm);
+
+/// summary.json and the like; written in one step by rank 0. Collective.
+void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json, MPI_Comm comm);
+
+}  // namespace windhover::io
