@@ -29,12 +29,12 @@ inline std::string make_mesh(const std::string& name, const std::map<std::string
     std::filesystem::create_directories(folder);
     // written beside and renamed: tests on other numbers of ranks may make the same mesh at the same time
     const std::string part = fmt::format("{}/{}.{}.msh", folder, label, ::getpid());
-    const std::string command = fmt::format("gmsh -3 -v 2 {} {} {}/tests/meshes/{}.geo -o '{}' >/dev/null && mv '{}' '{}'",
-                                            arguments, options, WINDHOVER_SOURCE_DIR, name, part, part, file);
+    const std::string command = fmt::format("gmsh -3 -v 2 {} {} {}/tests/meshes/{}.geo -o '{}' > '{}.log' 2>&1 && mv '{}' '{}'",
+                                            arguments, options, WINDHOVER_SOURCE_DIR, name, part, file, part, file);
     failed = std::system(command.c_str());
   }
   MPI_Bcast(&failed, 1, MPI_INT, 0, comm);
-  if (failed != 0) throw std::runtime_error("gmsh could not make " + file);
+  if (failed != 0) throw std::runtime_error("gmsh could not make " + file + " (see the .log beside it)");
   return file;
 }
 

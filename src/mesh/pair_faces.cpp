@@ -122,6 +122,27 @@ bool translation(const FileMesh& mesh, const SharedFace& face, Vec3& shift) {
   return mismatch <= 1e-6 * size;
 }
 
+/// Periodic surfaces of which only the edges were matched (gmsh without its search for closest nodes leaves such files):
+/// there more than two boundary faces meet at an edge. Adds one of them for each such edge.
+void find_half_matched(DM dm, const FileMesh& mesh, const std::vector<SharedFace>& faces, Complaint& complaint) {
+  Vec periodic = nullptr;
+  petsc(DMGetCellCoordinatesLocal(dm, &periodic));
+  if (!periodic) return;
+  PetscInt first_face = 0, begin = 0, end = 0;
+  petsc(DMPlexGetHeightStratum(dm, 1, &first_face, nullptr));
+  petsc(DMPlexGetDepthStratum(dm, 1, &begin, &end));
+  for (PetscInt edge = begin; edge < end; ++edge) {
+    PetscInt n = 0;
+    const PetscInt* around = nullptr;
+    petsc(DMPlexGetSupportSize(dm, edge, &n));
+    petsc(DMPlexGetSupport(dm, edge, &around));
+    const auto on_boundary = [&](PetscInt f) { return faces[f - first_face].uses == 1; };
+    if (std::count_if(around, around + n, on_boundary) <= 2) continue;
+    const SharedFace& face = faces[*std::find_if(around, around + n, on_boundary) - first_face];
+    complaint.add(mesh, face.cell[0], face.side[0]);
+  }
+}
+
 class PatchList {
  public:
   explicit PatchList(const GmshHeader& header) : header_(header) {}
@@ -144,10 +165,14 @@ class PatchList {
 }  // namespace
 
 void pair_faces(DM dm, const GmshHeader& header, const std::string& file, double scale, FileMesh& mesh) {
-  Complaint crowded(file, scale), holes(file, scale), unnamed(file, scale), inside(file, scale), turned(file, scale);
+  Complaint crowded(file, scale), half_matched(file, scale), holes(file, scale), unnamed(file, scale),
+      inside(file, scale), turned(file, scale);
   const std::vector<SharedFace> faces = shared_faces(dm, mesh, crowded);
   crowded.throw_if_any("a face belongs to more than two cells: a cell is twice in the file, or there are less than three "
                        "cells between periodic surfaces");
+  find_half_matched(dm, mesh, faces, half_matched);
+  half_matched.throw_if_any("periodic surfaces are matched at their edges only: the program that made the mesh left out "
+                            "the pairs of nodes inside");
   const auto zone_of = [&](const SharedFace& face, int k) { return mesh.cells[face.cell[k]].zone; };
   const auto interior = [&](const SharedFace& face) { return face.uses == 2 && zone_of(face, 0) == zone_of(face, 1); };
   PatchList patches(header);

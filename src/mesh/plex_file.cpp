@@ -43,8 +43,9 @@ DmHandle load_plex(const std::string& file, const GmshHeader& header) {
   petsc(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
   const PetscErrorCode code = create_plex(file, header.binary, viewer, &dm);
   petsc(PetscPopErrorHandler());
-  DmHandle owner(dm);
+  // A half-built DM stays behind: PETSc refuses to destroy it, and the program is about to end.
   if (code != 0) throw UserError("{}: damaged gmsh mesh, or elements that do not fit together", file);
+  DmHandle owner(dm);
   PetscInt dimension = 0;
   petsc(DMGetDimension(dm, &dimension));
   if (dimension != 3) throw UserError("{}: the mesh has no three-dimensional cells", file);
