@@ -33,7 +33,8 @@ function(windhover_test folder)
   target_link_libraries(test_${folder} PRIVATE windhover_flags ${ARG_LIBS})
   target_include_directories(test_${folder} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
   target_compile_definitions(test_${folder} PRIVATE
-    WINDHOVER_SOURCE_DIR="${CMAKE_SOURCE_DIR}" WINDHOVER_BINARY_DIR="${CMAKE_BINARY_DIR}")
+    WINDHOVER_SOURCE_DIR="${CMAKE_SOURCE_DIR}" WINDHOVER_BINARY_DIR="${CMAKE_BINARY_DIR}"
+    WINDHOVER_PYTHON="${WINDHOVER_PYTHON}")
   foreach(ranks ${ARG_RANKS})
     add_test(NAME ${folder}_${ranks}
       COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe -n ${ranks} $<TARGET_FILE:test_${folder}>)
