@@ -45,8 +45,8 @@ State<T> farfield_state(const State<T>& s, const State<double>& far, const FaceN
 
   // upstream: 1 where the flow leaves. Rounded off about zero, for the pressure depends on which entropy is taken and
   // Newton's method cannot cross a jump.
-  const T x = (face_un - lift(n.grid_speed)) / (0.02 * far_c);
-  const T inside = 0.5 + 0.5 * x / sqrt(1.0 + x * x);
+  const T x = maximum(minimum((face_un - lift(n.grid_speed)) / (0.1 * far_c), T(1.0)), T(-1.0));
+  const T inside = 0.5 + x * (0.75 - 0.25 * x * x);
   const double far_entropy = far.p / std::pow(far.rho, gamma);
   const T entropy = far_entropy + inside * (s.p / power(s.rho, gamma) - far_entropy);
   const T rho = power(face_c * face_c / (gamma * entropy), 1.0 / (gamma - 1.0));

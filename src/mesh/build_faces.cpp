@@ -77,6 +77,7 @@ class FaceBuilder {
   }
 
   void append_blocks(const std::vector<Face>& faces, std::vector<FaceBlock>& blocks) const {
+    blocks.reserve(blocks.size() + (faces.size() + kLanes - 1) / kLanes);
     for (std::size_t begin = 0; begin < faces.size(); begin += kLanes) {
       FaceBlock& block = blocks.emplace_back();
       block = FaceBlock{};

@@ -73,6 +73,12 @@ class Compaction {
 
 void fill_cells(const MeshPart& part, const Numbering& numbering, Mesh& mesh) {
   Compaction nodes, points;
+  const std::size_t n_cells = numbering.cell.size();
+  mesh.type.reserve(n_cells);
+  mesh.cell_zone.reserve(n_cells);
+  mesh.volume.reserve(n_cells);
+  mesh.centroid.reserve(n_cells);
+  mesh.cell_point_start.reserve(n_cells + 1);
   mesh.cell_point_start.push_back(0);
   for (const Index position : numbering.cell) {
     const FileCell& cell = part.cells[position];
@@ -95,6 +101,9 @@ void fill_cells(const MeshPart& part, const Numbering& numbering, Mesh& mesh) {
     mesh.cell_point_start.push_back(static_cast<Index>(mesh.cell_point.size()));
   }
   mesh.n_nodes = nodes.size();
+  mesh.cell_point.shrink_to_fit();
+  mesh.point.shrink_to_fit();
+  mesh.point_node.shrink_to_fit();
 }
 
 }  // namespace
