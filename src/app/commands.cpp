@@ -3,8 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <limits>
 
+#include "app/mesh_file.h"
 #include "app/session.h"
 #include "app/simulation.h"
+#include "app/verify.h"
 #include "base/errors.h"
 #include "base/interrupt.h"
 #include "base/version.h"
@@ -17,22 +19,41 @@ struct Arguments {
   std::vector<std::string> overrides;
   std::string petsc;
   RunOptions run;
+  bool quick = false;
 };
 
-int run(const Arguments& a) {
+int mesh_command(const Arguments& a) {
+  reject_mpiexec("mesh");
   const Case c = load_case(a.path, a.overrides);
+  if (!c.mesh.geometry.empty()) make_mesh(c);
+  const Session session("");
+  return guarded([&] {
+    report_mesh(c);
+    return 0;
+  });
+}
+
+int run_command(const Arguments& a) {
+  const Case c = load_case(a.path, a.overrides);
+  require_mesh(c);
   const Session session(a.petsc);
   catch_interrupts();
   return guarded([&] { return run_simulation(c, a.run); });
 }
 
-int check(const Arguments& a) {
+int check_command(const Arguments& a) {
   const Case c = load_case(a.path, a.overrides);
+  require_mesh(c);
   const Session session(a.petsc);
   return guarded([&] { return check_simulation(c); });
 }
 
-int keys() {
+int verify_command(const Arguments& a) {
+  reject_mpiexec("verify");
+  return verify(a.path, a.quick);
+}
+
+int keys_command() {
   fmt::print("{}", case_file_documentation());
   return 0;
 }
@@ -56,6 +77,9 @@ int run_command(int argc, char** argv) {
   app.require_subcommand(1);
   Arguments a;
 
+  auto* mesh_app = app.add_subcommand("mesh", "make the mesh of a case with gmsh, report its quality");
+  add_case(*mesh_app, a);
+
   auto* run_app = app.add_subcommand("run", "run a case");
   add_case(*run_app, a);
   add_petsc(*run_app, a);
@@ -68,7 +92,11 @@ int run_command(int argc, char** argv) {
   add_case(*check_app, a);
   add_petsc(*check_app, a);
 
-  auto* keys_app = app.add_subcommand("keys", "print the reference of all case keys")->group("");
+  auto* verify_app = app.add_subcommand("verify", "run a case's checks, compare each figure with the expected one");
+  verify_app->add_option("CASEDIR", a.path, "folder with verify.toml")->required();
+  verify_app->add_flag("--quick", a.quick, "only the runs marked quick");
+
+  app.add_subcommand("keys", "print the reference of all case keys")->group("");
 
   try {
     app.parse(argc, argv);
@@ -77,10 +105,11 @@ int run_command(int argc, char** argv) {
     return guarded([&]() -> int { throw UserError("{} (windhover --help tells more)", error.what()); });
   }
   return guarded([&] {
-    if (*run_app) return run(a);
-    if (*check_app) return check(a);
-    if (*keys_app) return keys();
-    return 0;
+    if (*mesh_app) return mesh_command(a);
+    if (*run_app) return run_command(a);
+    if (*check_app) return check_command(a);
+    if (*verify_app) return verify_command(a);
+    return keys_command();
   });
 }
 

@@ -46,6 +46,10 @@ Session::Session(const std::string& options) {
 
 Session::~Session() { PetscFinalize(); }
 
+void reject_mpiexec(const char* command) {
+  if (started_by_mpiexec()) throw UserError("`windhover {}` is one process: start it without mpiexec", command);
+}
+
 int guarded(const std::function<int()>& command) {
   try {
     return command();

@@ -14,6 +14,9 @@ class Session {
   Session& operator=(const Session&) = delete;
 };
 
+/// UserError when started by mpiexec: for commands that are one process and start others.
+void reject_mpiexec(const char* command);
+
 /// Runs a command and turns what it throws into a message and an exit code (2: the user can mend it, 3: the solver
 /// gave up). Errors of these two kinds are the same on every rank and are printed once; anything else is a bug, may
 /// be one rank's alone, and ends all ranks.

@@ -1,0 +1,19 @@
+// The mesh of a case: made from its geometry, and judged.
+#pragma once
+#include "app/case.h"
+
+namespace windhover::app {
+
+/// The mesh is missing, or older than the geometry it is made from.
+bool mesh_is_due(const Case& c);
+
+/// UserError when the mesh is missing, saying how to make it.
+void require_mesh(const Case& c);
+
+/// Runs gmsh on the case's geometry. UserError: gmsh missing, its errors, a parameter that the geometry does not have.
+void make_mesh(const Case& c);
+
+/// Reads the mesh and prints its size and quality.
+void report_mesh(const Case& c);
+
+}  // namespace windhover::app

@@ -1,0 +1,54 @@
+#include "app/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "base/collective.h"
+
+namespace windhover::app {
+namespace {
+
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<long long>(seconds + 0.5);
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+}  // namespace
+
+std::string progress_line(const StepReport& report, double fraction, double elapsed_s) {
+  const std::string left = fraction > 0 ? clock_text(elapsed_s * (1 - fraction) / fraction) : "?";
+  return fmt::format("step {:>6}  t {:<11.6g} s  {:>5.1f} %  left {}  newton {}  krylov {}", report.step, report.time_s,
+                     100 * fraction, left, report.newton, report.krylov);
+}
+
+Progress::Progress(double begin_s, double end_s, MPI_Comm comm, std::FILE* out)
+    : begin_s_(begin_s), end_s_(end_s), out_(out), speaks_(rank_of(comm) == 0), terminal_(isatty(fileno(out))) {}
+
+Progress::~Progress() {
+  if (pending_.empty()) return;
+  fmt::print(out_, "{}\n", terminal_ ? "" : pending_);
+  std::fflush(out_);
+}
+
+void Progress::report(const StepReport& report) {
+  if (!speaks_) return;
+  const auto now = Clock::now();
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  const double fraction =
+      end_s_ > begin_s_ ? std::clamp((report.time_s - begin_s_) / (end_s_ - begin_s_), 0.0, 1.0) : 1.0;
+  pending_ = progress_line(report, fraction, elapsed);
+  if (terminal_) {
+    fmt::print(out_, "\r\033[K{}", pending_);
+  } else {
+    constexpr auto interval = std::chrono::milliseconds(500);
+    if (last_ != Clock::time_point::min() && now - last_ < interval) return;
+    fmt::print(out_, "{}\n", pending_);
+    pending_.clear();
+    last_ = now;
+  }
+  std::fflush(out_);
+}
+
+}  // namespace windhover::app
