@@ -132,7 +132,7 @@ void declare(V& v, OutputOptions& o) {
   v.key("fields_interval", o.fields_interval,
         {.doc = "steps between field outputs; 0: only the first and the last", .min = 0});
   v.key("checkpoint_interval", o.checkpoint_interval,
-        {.doc = "steps between checkpoints; 0: only the last", .min = 0});
+        {.doc = "steps between checkpoints; the end of a run is one as well", .min = 1});
   v.key("average_from_s", o.average_from_s, {.doc = "start of the averages in summary.json", .min = 0});
 }
 

@@ -14,8 +14,12 @@ void prepare_results(const std::filesystem::path& directory, bool restart, MPI_C
   });
 }
 
+void write_text(const std::filesystem::path& file, const std::string& text, MPI_Comm comm) {
+  on_root(comm, [&] { write_atomically(file, text); });
+}
+
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json, MPI_Comm comm) {
-  on_root(comm, [&] { write_atomically(file, json.dump(2) + "\n"); });
+  write_text(file, json.dump(2) + "\n", comm);
 }
 
 }  // namespace windhover::io

@@ -4,13 +4,17 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace windhover::io {
 
 /// Makes the folder. UserError when it holds another run that this one does not continue. Collective.
 void prepare_results(const std::filesystem::path& directory, bool restart, MPI_Comm comm);
 
-/// summary.json and the like; written in one step by rank 0. Collective.
+/// A small file, written in one step by rank 0. Collective.
+void write_text(const std::filesystem::path& file, const std::string& text, MPI_Comm comm);
+
+/// summary.json and the like, in the same way.
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json, MPI_Comm comm);
 
 }  // namespace windhover::io
