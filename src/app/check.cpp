@@ -1,0 +1,80 @@
+// `windhover check`: everything but the steps.
+#include <fstream>
+#include <sstream>
+
+#include "app/flow_setup.h"
+#include "app/simulation.h"
+#include "base/errors.h"
+#include "mesh/quality.h"
+
+namespace windhover::app {
+namespace {
+
+/// Resident memory of all ranks, bytes.
+double resident_memory(MPI_Comm comm) {
+  std::ifstream status("/proc/self/status");
+  double kilobytes = 0;
+  for (std::string line; std::getline(status, line);)
+    if (line.rfind("VmRSS:", 0) == 0) std::istringstream(line.substr(6)) >> kilobytes;
+  double bytes = 1024 * kilobytes;
+  MPI_Allreduce(MPI_IN_PLACE, &bytes, 1, MPI_DOUBLE, MPI_SUM, comm);
+  return bytes;
+}
+
+/// Seconds of one residual.
+double time_residual(fluid::EulerOperator& euler, Vec q, const fluid::Frames& frames) {
+  const VecHandle out = euler.make_vector();
+  euler.residual(q, frames, out);
+  const double start = MPI_Wtime();
+  constexpr int repeats = 3;
+  for (int i = 0; i < repeats; ++i) euler.residual(q, frames, out);
+  double seconds = (MPI_Wtime() - start) / repeats;
+  MPI_Allreduce(MPI_IN_PLACE, &seconds, 1, MPI_DOUBLE, MPI_MAX, euler.mesh().comm);
+  return seconds;
+}
+
+std::string place(const mesh::Worst& worst, double scale) {
+  return fmt::format("at ({:.4g}, {:.4g}, {:.4g}) m", scale * worst.place.x(), scale * worst.place.y(),
+                     scale * worst.place.z());
+}
+
+}  // namespace
+
+int check_simulation(const Case& c) {
+  const Scales s(c.fluid);
+  const mesh::Mesh mesh = mesh::read_mesh(c.mesh.file, c.mesh.scale_m / s.length, PETSC_COMM_WORLD);
+  fluid::EulerOperator euler(mesh, flow_model(c));
+  fluid::FlowSolver solver(euler, flow_options(c));
+  const fluid::Frames frames(mesh.zones.size(), mesh::evaluate(scaled_motion(c), 0));
+  const Vec q = solver.state().q;
+  fluid::set_initial(euler, frames, initial_state(c), q);
+  const mesh::Quality quality = mesh::measure_quality(mesh);
+  const double dt = step_seconds(c) / s.time();
+  const double courant = euler.courant_number(q, frames, dt);
+  const double residual = time_residual(euler, q, frames);
+  const double memory = resident_memory(mesh.comm);
+
+  // a step: measured once on rotors and airfoils (docs/decisions.md), in units of the residual timed here
+  const auto& scheme = fluid::time_scheme(c.time.scheme);
+  const double residuals_per_step = scheme.implicit ? 60.0 * (scheme.stages > 1 && scheme.a[0][0] != 0 ? 2 : 1) : scheme.stages;
+  // matrix and factor, and the Krylov basis, which are not made yet
+  const double later = scheme.implicit ? mesh.n_global * (2 * 5.5 * 200.0 + 40.0 * 2 * 20) : 0.0;
+  std::string text = fmt::format("case      {}\nmesh      {}: {} cells\n", c.file.string(), c.mesh.file, mesh.n_global);
+  for (const auto& zone : mesh.zones) text += fmt::format("zone      {}\n", zone.name);
+  for (const auto& patch : mesh.patches)
+    text += fmt::format("surface   {}: {}\n", patch.name, c.fluid.boundary.at(patch.name));
+  const mesh::Worst &edge = quality.smallest_edge, &angle = quality.smallest_dihedral_deg,
+                    &ratio = quality.largest_volume_ratio;
+  text += fmt::format("quality   smallest edge {:.4g} m {}\n", s.length * edge.value, place(edge, s.length));
+  text += fmt::format("          smallest dihedral angle {:.3g} deg {}\n", angle.value, place(angle, s.length));
+  text += fmt::format("          largest volume ratio of neighbours {:.3g} {}\n", ratio.value, place(ratio, s.length));
+  text += fmt::format("step      {:.6g} s, acoustic Courant number up to {:.4g}\n", step_seconds(c), courant);
+  text += fmt::format("memory    about {:.3g} GB\n", (memory + later) * 1e-9);
+  const int steps = step_count(c);
+  text += fmt::format("time      about {:.2g} s a step, {:.2g} s for {} steps\n", residuals_per_step * residual,
+                      residuals_per_step * residual * steps, steps);
+  petsc(PetscPrintf(mesh.comm, "%s", text.c_str()));
+  return 0;
+}
+
+}  // namespace windhover::app

@@ -1,0 +1,30 @@
+// The state of a run in a checkpoint, and back.
+#pragma once
+#include <filesystem>
+
+#include "app/scales.h"
+#include "fluid/flow_solver.h"
+#include "io/row_exchange.h"
+
+namespace windhover::app {
+
+/// Cells are stored in the mesh file's order, so a run may continue on any number of ranks.
+class FlowCheckpoint {
+ public:
+  FlowCheckpoint(const Case& c, const mesh::Mesh& mesh);
+
+  void write(const std::filesystem::path& directory, const fluid::FlowState& state, const fluid::Frames& frames) const;
+
+  /// The newest checkpoint of the results. UserError: none, cut short, or of another mesh or scheme.
+  void read(const std::filesystem::path& directory, fluid::FlowState& state) const;
+
+ private:
+  std::vector<double> rows_of(Vec q) const;
+  void set_items(std::span<const double> rows, Vec q) const;
+
+  const Case& case_;
+  const mesh::Mesh& mesh_;
+  io::RowExchange order_;
+};
+
+}  // namespace windhover::app

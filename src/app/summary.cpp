@@ -1,0 +1,68 @@
+#include "app/summary.h"
+
+#include <algorithm>
+
+#include "base/version.h"
+#include "io/results.h"
+
+namespace windhover::app {
+namespace {
+
+double total_mass(const mesh::Mesh& mesh, Vec state) {
+  const double* q = nullptr;
+  petsc(VecGetArrayRead(state, &q));
+  double sum = 0;
+  for (mesh::Index c = 0; c < mesh.n_owned; ++c) sum += mesh.volume[c] * q[fluid::kVariables * c];
+  petsc(VecRestoreArrayRead(state, &q));
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, mesh.comm);
+  return sum;
+}
+
+std::vector<double> list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace
+
+void Summary::start(const fluid::FlowSolver& solver, double setup_s) {
+  first_step_ = solver.state().step;
+  mass_ = total_mass(mesh_, solver.state().q);
+  setup_s_ = setup_s;
+}
+
+void Summary::step(const fluid::StepReport& report, const fluid::FlowState& state, const Loads& loads, double seconds) {
+  solve_s_ += seconds;
+  newton_ += report.newton();
+  krylov_ += report.krylov();
+  if (state.time * Scales(case_.fluid).time() < case_.output.average_from_s) return;
+  ++averaged_;
+  sum_.force_N += loads.force_N;
+  sum_.moment_Nm += loads.moment_Nm;
+}
+
+void Summary::write(const std::filesystem::path& directory, const fluid::FlowSolver& solver, double wall_s) const {
+  int ranks = 1;
+  MPI_Comm_size(mesh_.comm, &ranks);
+  const long steps = solver.state().step - first_step_;
+  const double per_step = 1.0 / std::max(1L, steps), per_average = 1.0 / std::max(1L, averaged_);
+  nlohmann::ordered_json j;
+  j["case"] = case_.name;
+  j["version"] = version;
+  j["revision"] = revision;
+  j["steps"] = steps;
+  j["rejected_steps"] = rejected_;
+  j["last_step"] = solver.state().step;
+  j["time_s"] = solver.state().time * Scales(case_.fluid).time();
+  j["cells"] = mesh_.n_global;
+  j["ranks"] = ranks;
+  j["wall_s"] = {{"total", wall_s}, {"setup", setup_s_}, {"fluid", solve_s_}, {"output", output_s_}};
+  j["seconds_per_step"] = solve_s_ * per_step;
+  j["newton_per_step"] = double(newton_) * per_step;
+  j["krylov_per_step"] = double(krylov_) * per_step;
+  j["averages"] = {{"from_s", case_.output.average_from_s},
+                   {"steps", averaged_},
+                   {"force_N", list(per_average * sum_.force_N)},
+                   {"moment_Nm", list(per_average * sum_.moment_Nm)}};
+  j["mass_drift"] = total_mass(mesh_, solver.state().q) / mass_ - 1;
+  io::write_json(directory / "summary.json", j, mesh_.comm);
+}
+
+}  // namespace windhover::app
