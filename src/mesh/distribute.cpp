@@ -2,7 +2,7 @@
 
 #include <petscpartitioner.h>
 
-#include <algorithm>
+#include <cstdlib>
 
 #include "mesh/cell_shape.h"
 
@@ -20,6 +20,7 @@ std::vector<int> partition(const std::vector<FileCell>& cells, int n_ranks, MPI_
       if (side.neighbour >= 0) neighbours.push_back(side.neighbour);
     start.push_back(static_cast<PetscInt>(neighbours.size()));
   }
+  setenv("SCOTCH_PTHREAD_NUMBER", "1", 0);  // with threads, each run would get another partition
   PartitionerHandle partitioner;
   petsc(PetscPartitionerCreate(comm, partitioner.out()));
   petsc(PetscPartitionerSetType(partitioner, PETSCPARTITIONERPTSCOTCH));

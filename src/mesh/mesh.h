@@ -36,7 +36,9 @@ struct Patch {
 
 /// Cells are numbered: owned [0, n_owned), then halo cells that share a face with an owned one [n_owned, n_gradient)
 /// (gradients are needed there), then halo cells that share a node with any of those [n_gradient, n_cells) (values only).
-/// Owned cells are ordered by zone, within a zone by reverse Cuthill-McKee. Zones, patches: same lists on every rank.
+/// Owned cells are ordered by zone, within a zone by reverse Cuthill-McKee. Zones, patches: same lists on every rank,
+/// in the order of their physical tags (patches of one tag by zone).
+/// Zones never share faces or nodes: where their cells touch in the file, the mesh is cut into a patch of each.
 /// Periodic surfaces: a node stands for all its periodic images, a point is one image of it; so the neighbours
 /// of a cell are found by nodes, its shape by points. Without periodic surfaces points and nodes are the same.
 struct Mesh {
@@ -45,7 +47,8 @@ struct Mesh {
   PetscInt n_global = 0;      ///< cells on all ranks
   PetscInt first_global = 0;  ///< solver-global number of owned cell 0
   std::vector<PetscInt> global_cell;  ///< [n_gradient] solver-global numbers
-  std::vector<PetscInt> file_cell;    ///< [n_owned] position of the cell in the mesh file, from 0: independent of ranks
+  std::vector<PetscInt> file_cell;    ///< [n_owned] number of the cell in the file, from 0 (by type, then place in the
+                                      ///< file): independent of ranks
   std::vector<CellType> type;         ///< [n_cells]
   std::vector<int> cell_zone;         ///< [n_cells]
   std::vector<double> volume;         ///< [n_cells]
@@ -62,10 +65,12 @@ struct Mesh {
   std::uint64_t hash = 0;   ///< of the cells and coordinates, the same for any number of ranks
 };
 
-/// Reads a gmsh file through DMPlex, distributes it with PTSCOTCH, adds the halo, checks and measures it.
+/// Reads a gmsh file through DMPlex on rank 0, checks it, divides it with PTSCOTCH and adds the halo.
 /// Lengths are multiplied by `scale` (metres per unit of the file over the reference length).
-/// Collective. UserError: file missing or unreadable, hole (boundary face without physical name), inverted or flat
-/// cell (with its place), cell without zone.
+/// Collective. UserError, the same on all ranks, with a place in the file's units: file missing or unreadable; hole
+/// (boundary face without physical surface); inverted or flat cell; cell without physical volume (unless there is no
+/// physical volume at all: then one zone "domain"); faces between zones without a name, or a named surface inside a zone;
+/// periodic surfaces that are no translations, badly matched, or less than three cells apart.
 Mesh read_mesh(const std::string& file, double scale, MPI_Comm comm);
 
 }  // namespace windhover::mesh

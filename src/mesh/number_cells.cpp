@@ -74,7 +74,8 @@ SfHandle halo_of(const MeshPart& part, const Numbering& numbering, MPI_Comm comm
 Numbering number_cells(const MeshPart& part, MPI_Comm comm) {
   Numbering numbering;
   const PetscInt n_owned = part.n_owned;
-  MPI_Exscan(&n_owned, &numbering.first_global, 1, MPIU_INT, MPI_SUM, comm);
+  MPI_Scan(&n_owned, &numbering.first_global, 1, MPIU_INT, MPI_SUM, comm);
+  numbering.first_global -= n_owned;
   numbering.cell = order_owned(part);
   const std::vector<PetscInt> global = global_numbers(part, numbering, comm);
 

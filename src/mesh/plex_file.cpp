@@ -57,11 +57,24 @@ std::vector<PetscInt> physical_tags(DM dm, const char* name, PetscInt begin, Pet
   DMLabel label = nullptr;
   petsc(DMGetLabel(dm, name, &label));
   if (!label) return tags;
-  for (PetscInt p = begin; p < end; ++p) {
-    PetscInt tag = 0;
-    petsc(DMLabelGetValue(label, p, &tag));
-    tags[p - begin] = std::max<PetscInt>(tag, 0);  // -1: not in the label
+  IsHandle values;
+  petsc(DMLabelGetValueIS(label, values.out()));
+  PetscInt n_values = 0;
+  const PetscInt* value = nullptr;
+  petsc(ISGetLocalSize(values, &n_values));
+  petsc(ISGetIndices(values, &value));
+  for (PetscInt i = 0; i < n_values; ++i) {
+    IsHandle points;
+    petsc(DMLabelGetStratumIS(label, value[i], points.out()));
+    PetscInt n_points = 0;
+    const PetscInt* point = nullptr;
+    petsc(ISGetLocalSize(points, &n_points));
+    petsc(ISGetIndices(points, &point));
+    for (PetscInt k = 0; k < n_points; ++k)
+      if (point[k] >= begin && point[k] < end) tags[point[k] - begin] = value[i];
+    petsc(ISRestoreIndices(points, &point));
   }
+  petsc(ISRestoreIndices(values, &value));
   return tags;
 }
 

@@ -33,7 +33,8 @@ std::string distorted(const std::string& file) {
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   if (rank == 0 && !std::filesystem::exists(copy)) {
     std::ifstream in(file);
-    std::ofstream out(copy + ".part");
+    const std::string part = fmt::format("{}.{}", copy, ::getpid());
+    std::ofstream out(part);
     out.precision(17);
     std::string line;
     while (std::getline(in, line) && line != "$Nodes") out << line << '\n';
@@ -45,7 +46,7 @@ std::string distorted(const std::string& file) {
           << z + 0.07 * std::sin(5 * x * y);
     out << in.rdbuf();
     out.close();
-    std::filesystem::rename(copy + ".part", copy);
+    std::filesystem::rename(part, copy);
   }
   MPI_Barrier(PETSC_COMM_WORLD);
   return copy;
