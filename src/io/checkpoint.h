@@ -62,6 +62,7 @@ class CheckpointWriter {
   std::filesystem::path folder_, path_, temporary_;
   MPI_Comm comm_;
   HdfHandle file_;
+  std::uint64_t bytes_ = 256 * 1024;  ///< at most that many so far; attributes have this room
 };
 
 /// Reads one checkpoint. UserError naming the file when it is cut short, is no checkpoint, or lacks what is asked for.

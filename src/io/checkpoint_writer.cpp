@@ -8,8 +8,8 @@ namespace windhover::io {
 
 namespace fs = std::filesystem;
 
-/// Room for the attributes and for what HDF5 keeps about the tables.
-constexpr std::uint64_t metadata_bytes = 256 * 1024;
+/// Room for what HDF5 keeps about a table.
+constexpr std::uint64_t metadata_bytes = 64 * 1024;
 
 CheckpointWriter::CheckpointWriter(const fs::path& directory, std::int64_t step, MPI_Comm comm)
     : folder_(checkpoint_folder(directory)),
@@ -20,13 +20,13 @@ CheckpointWriter::CheckpointWriter(const fs::path& directory, std::int64_t step,
     make_folder(folder_);
     OutputFile(temporary_, OutputFile::Mode::create);
   });
-  reserve(metadata_bytes);
+  reserve(bytes_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const HdfHandle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_mpio(access, comm_, MPI_INFO_NULL);
   file_ = HdfHandle(H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
   check(file_ >= 0);
-  reserve(metadata_bytes);
+  reserve(bytes_);
   attribute(format_attribute, Attribute(std::int64_t(checkpoint_format)));
 }
 
@@ -93,9 +93,8 @@ void CheckpointWriter::array(const std::string& name, std::span<const double> ro
   MPI_Allreduce(&mine, &total, 1, MPI_INT64_T, MPI_SUM, comm_);
   const hsize_t size[2] = {hsize_t(total), hsize_t(columns)};
   const hsize_t offset[2] = {hsize_t(end - mine), 0}, count[2] = {hsize_t(mine), hsize_t(columns)};
-  hsize_t bytes = 0;
-  check(H5Fget_filesize(file_, &bytes) >= 0);
-  reserve(bytes + size[0] * size[1] * sizeof(double) + metadata_bytes);
+  bytes_ += size[0] * size[1] * sizeof(double) + metadata_bytes;
+  reserve(bytes_);
   const HdfHandle space(H5Screate_simple(2, size, nullptr), H5Sclose);
   const HdfHandle memory(H5Screate_simple(2, count, nullptr), H5Sclose);
   const HdfHandle data(
