@@ -6,17 +6,21 @@
 namespace windhover {
 namespace {
 
+constexpr std::initializer_list<int> signals = {SIGINT, SIGTERM};
 volatile std::sig_atomic_t received = 0;
 
-extern "C" void remember_signal(int signal) { received = signal; }
+extern "C" void remember_signal(int signal) {
+  received = signal;
+  for (int any : signals) std::signal(any, SIG_DFL);
+}
 
 }  // namespace
 
 void catch_interrupts() {
   struct sigaction action = {};
   action.sa_handler = remember_signal;
-  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;  // the second signal meets the default action
-  for (int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+  action.sa_flags = SA_RESTART;
+  for (int signal : signals) sigaction(signal, &action, nullptr);
 }
 
 int interrupt_signal() { return received; }
