@@ -92,8 +92,8 @@ void validate(const Case& c, const toml::table& file) {
   validate_time(c.time, c.body, file);
   constexpr double most_steps = 1e9;
   if (c.time.end_s && *c.time.end_s / step_seconds(c) > most_steps)
-    throw UserError("{}: time.end_s = {}: is more than {} steps of {} s", io::place(file, "time.end_s"),
-                    *c.time.end_s, most_steps, step_seconds(c));
+    throw UserError("{}: time.end_s = {}: is more than {} steps of {} s", io::place(file, "time.end_s"), *c.time.end_s,
+                    most_steps, step_seconds(c));
 }
 
 }  // namespace
@@ -128,10 +128,10 @@ mesh::Motion body_motion(const Case& c) {
       motion.push_back(
           mesh::Translation{o.direction.normalized(), {o.mean_m, o.rate_m_s, o.amplitude_m, omega, phase}});
     } else {
-      motion.push_back(mesh::Rotation{
-          o.axis.normalized(),
-          o.point_m,
-          {o.mean_deg * radians, o.rate_deg_s * radians, o.amplitude_deg * radians, omega, phase}});
+      motion.push_back(
+          mesh::Rotation{o.axis.normalized(),
+                         o.point_m,
+                         {o.mean_deg * radians, o.rate_deg_s * radians, o.amplitude_deg * radians, omega, phase}});
     }
   }
   return motion;

@@ -23,8 +23,9 @@ std::string last_lines(const fs::path& log) {
 
 void run_logged(const std::vector<std::string>& command, const fs::path& log, const std::string& name) {
   const int code = run_process(command, {log, log});
-  if (code != 0) throw UserError("run {} failed with exit code {}; its output, in {}, ends:{}", name, code, log.string(),
-                                 last_lines(log));
+  if (code != 0)
+    throw UserError("run {} failed with exit code {}; its output, in {}, ends:{}", name, code, log.string(),
+                    last_lines(log));
 }
 
 /// The mesh when it is due, then the run.
@@ -51,7 +52,8 @@ nlohmann::json run_check(const fs::path& program, const fs::path& results) {
   const int code = run_process({WINDHOVER_PYTHON, program, results}, {printed, {}});
   if (code != 0) throw UserError("{}: failed with exit code {}", program.string(), code);
   auto values = nlohmann::json::parse(io::read_text(printed), nullptr, false);
-  if (!values.is_object()) throw UserError("{}: did not print a JSON object, see {}", program.string(), printed.string());
+  if (!values.is_object())
+    throw UserError("{}: did not print a JSON object, see {}", program.string(), printed.string());
   return values;
 }
 

@@ -1,7 +1,7 @@
 // `windhover verify`: runs a case's table of runs, computes its figures with its check.py, and compares.
 #pragma once
-#include <nlohmann/json.hpp>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>

@@ -81,8 +81,8 @@ void CheckpointWriter::attribute(const std::string& name, const Attribute& value
     }
   };
   const Layout layout = std::visit(Describe{scalar}, value);
-  const HdfHandle attribute(
-      H5Acreate2(file_, name.c_str(), layout.type, layout.space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const HdfHandle attribute(H5Acreate2(file_, name.c_str(), layout.type, layout.space, H5P_DEFAULT, H5P_DEFAULT),
+                            H5Aclose);
   check(attribute >= 0 && H5Awrite(attribute, layout.type, layout.data) >= 0);
 }
 
@@ -97,8 +97,8 @@ void CheckpointWriter::array(const std::string& name, std::span<const double> ro
   reserve(bytes_);
   const HdfHandle space(H5Screate_simple(2, size, nullptr), H5Sclose);
   const HdfHandle memory(H5Screate_simple(2, count, nullptr), H5Sclose);
-  const HdfHandle data(
-      H5Dcreate2(file_, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  const HdfHandle data(H5Dcreate2(file_, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                       H5Dclose);
   const HdfHandle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
   H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
   H5Sselect_hyperslab(space, H5S_SELECT_SET, offset, nullptr, count, nullptr);

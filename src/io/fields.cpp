@@ -20,7 +20,8 @@ std::string step_name(std::int64_t step) { return fmt::format("step_{:08}", step
 /// A file name that any system takes; the number keeps names apart that differ in other characters only.
 std::string piece_name(size_t block, const std::string& name, int rank) {
   std::string safe = name;
-  std::replace_if(safe.begin(), safe.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+  std::replace_if(
+      safe.begin(), safe.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
   return fmt::format("{}_{}_{:04}.vtu", block, safe, rank);
 }
 

@@ -33,8 +33,9 @@ std::string read_string(const toml::node& node, const std::string& name, const K
   }
   if (!key.choices.empty() && std::find(key.choices.begin(), key.choices.end(), *value) == key.choices.end()) {
     const std::string nearest = nearest_name(*value, key.choices);
-    refuse(node, name, "must be one of " + quoted_list(key.choices) +
-                           (nearest.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", nearest)));
+    refuse(node, name,
+           "must be one of " + quoted_list(key.choices) +
+               (nearest.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", nearest)));
   }
   return *value;
 }

@@ -1,11 +1,11 @@
 // Reads declared options (base/options.h) from a TOML case file, with overrides from the command line.
 #pragma once
+#include <toml++/toml.h>
 #include <Eigen/Core>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
-#include <toml++/toml.h>
 #include <vector>
 
 #include "base/errors.h"

@@ -16,8 +16,9 @@ std::string quoted(const std::string& text) {
 
 /// A key as it is when TOML allows that, otherwise quoted.
 std::string key_text(const std::string& name) {
-  const bool bare = !name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                                            "0123456789_-") == std::string::npos;
+  const bool bare = !name.empty() && name.find_first_not_of(
+                                         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                         "0123456789_-") == std::string::npos;
   return bare ? name : quoted(name);
 }
 

@@ -14,7 +14,7 @@ class RowExchange {
   RowExchange(std::span<const PetscInt> row, MPI_Comm comm);
 
   PetscInt first_row() const { return first_row_; }
-  PetscInt n_rows() const { return n_rows_; }        ///< of this rank's range
+  PetscInt n_rows() const { return n_rows_; }  ///< of this rank's range
   PetscInt n_total() const { return n_total_; }
 
   /// Values of items, `columns` each, to values of this rank's rows, and back. Collective.

@@ -24,9 +24,9 @@ struct Appended {
   template <class T>
   std::string add(const char* type, const std::string& name, int components, const std::vector<T>& values) {
     const std::uint64_t bytes = values.size() * sizeof(T);
-    const std::string element =
-        fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
-                    type, xml_text(name), components, offset);
+    const std::string element = fmt::format(
+        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
+        xml_text(name), components, offset);
     parts.push_back({values.data(), bytes});
     offset += sizeof(bytes) + bytes;
     return element;

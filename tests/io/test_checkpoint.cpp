@@ -93,7 +93,8 @@ TEST_CASE("a full disk leaves the last checkpoint whole and nothing else", "[io]
   for (rlim_t limit : {1000, 200000, 300000}) {
     {
       const testing::FileSizeLimit full(limit);
-      CHECK_THROWS_WITH(write(scratch.path, 2), Contains("step_00000002.h5") && Contains("cannot write") && Contains("File too large"));
+      CHECK_THROWS_WITH(write(scratch.path, 2),
+                        Contains("step_00000002.h5") && Contains("cannot write") && Contains("File too large"));
     }
     MPI_Barrier(comm);
     int files = 0;

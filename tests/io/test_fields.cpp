@@ -16,12 +16,13 @@ const MPI_Comm comm = MPI_COMM_WORLD;
 
 /// A unit cube with a tetrahedron on it, and one of the cube's faces as a wall of rank 0.
 std::vector<io::FieldBlock> blocks() {
-  io::FieldBlock fluid = {"fluid",
-                          {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1, 0.5, 0.5, 2 + 1e-9},
-                          {0, 1, 2, 3, 4, 5, 6, 7, 4, 5, 6, 8},
-                          {8, 12},
-                          {12, 10},
-                          {{"density_kg_m3", 1, {1.5F, float(rank_of(comm))}}, {"velocity_m_s", 3, {1, 2, 3, 4, 5, 6}}}};
+  io::FieldBlock fluid = {
+      "fluid",
+      {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1, 0.5, 0.5, 2 + 1e-9},
+      {0, 1, 2, 3, 4, 5, 6, 7, 4, 5, 6, 8},
+      {8, 12},
+      {12, 10},
+      {{"density_kg_m3", 1, {1.5F, float(rank_of(comm))}}, {"velocity_m_s", 3, {1, 2, 3, 4, 5, 6}}}};
   io::FieldBlock wall = {"wing & <tip>", {}, {}, {}, {}, {{"pressure_Pa", 1, {}}}};
   if (rank_of(comm) == 0) {
     wall = {"wing & <tip>", {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, {0, 1, 2, 3}, {4}, {9}, {{"pressure_Pa", 1, {7}}}};
