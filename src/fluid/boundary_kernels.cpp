@@ -8,7 +8,7 @@ using D = Dual<Pack>;
 
 void boundary_jacobian(const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock& b, BlockPack& block) {
   const FaceGeometry face = face_geometry(in, b);
-  const State<Pack> inside = face_side<first_order, Pack>(in, b, 0, true).state;
+  const State<Pack> inside = face_side<first_order, Pack>(in, b, 0).state;
   for (int k = 0; k < kVariables; ++k) {
     const State<D> s = boundary_state(kind, seeded_state(inside, k, in.gamma), in, face.normal);
     store_column(physical_flux(s, face.normal, in.gamma), face.area, k, block);
@@ -17,7 +17,7 @@ void boundary_jacobian(const FaceInput& in, BoundaryKind kind, const mesh::FaceB
 
 template <Reconstruction R>
 State<Pack> state_on_face(const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock& b) {
-  return boundary_state(kind, face_side<R, Pack>(in, b, 0, true).state, in, face_geometry(in, b).normal);
+  return boundary_state(kind, face_side<R, Pack>(in, b, 0).state, in, face_geometry(in, b).normal);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fluid/block_jacobian.h"
 #include "fluid/boundary_kernels.h"
 #include "fluid/gradient.h"
 #include "mesh/mesh.h"
@@ -56,10 +57,8 @@ class EulerOperator {
   /// out = d residual / dq · dq, exact (forward mode).
   void derivative(Vec dq, Vec out);
 
-  /// A matrix with the pattern of face neighbours, 5x5 blocks, stored as MATBAIJ or MATAIJ.
-  MatHandle make_jacobian(MatType type) const;
-  /// matrix = scale · d(first-order residual)/dq + diagonal(volume · mass_scale).
-  void first_order_jacobian(Vec q, const Frames& frames, double scale, double mass_scale, Mat matrix);
+  /// jacobian = scale · d(first-order residual)/dq + diagonal(mass_scale · volume).
+  void first_order_jacobian(Vec q, const Frames& frames, double scale, double mass_scale, BlockJacobian& jacobian);
 
   /// One entry per mesh patch.
   std::vector<PatchFlux> patch_fluxes(Vec q, const Frames& frames);

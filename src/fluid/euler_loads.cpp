@@ -64,7 +64,7 @@ double EulerOperator::courant_number(Vec q, const Frames& frames, double dt) {
     for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
       const FaceGeometry face = face_geometry(in, *b);
       for (int side = 0; side < sides; ++side) {
-        const State<Pack> s = face_side<Reconstruction::first_order, Pack>(in, *b, side, true).state;
+        const State<Pack> s = face_side<Reconstruction::first_order, Pack>(in, *b, side).state;
         const Pack speed =
             absolute(normal_speed(s, face.normal) - face.normal.grid_speed) + sqrt(in.gamma * s.p / s.rho);
         for (int i = 0; i < b->count; ++i) rate[b->cell[side][i]] += (face.area * speed)[i];

@@ -54,14 +54,20 @@ inline FaceGeometry face_geometry(const FaceInput& in, const mesh::FaceBlock& b)
   return {{n[0], n[1], n[2], inverse * swept}, area};
 }
 
-/// Van Leer's limiter between the cell's own slope and the difference across the face, made differentiable:
+/// Van Leer's limiter between a cell's own slope and the difference across the face, made differentiable:
 /// with g the slope times the distance and d the difference, t = 1 − (g−d)²/(g²+ε²) is van Leer's ratio
 /// (2g−d) d/g² of upwind and central differences; t²(2−t) meets zero smoothly and keeps second order near t = 1.
+/// Both sides of the face share one division.
 template <class T>
-T limited_fraction(const T& slope, const T& difference, double threshold) {
-  const T gap = slope - difference;
-  const T t = maximum(T(1.0) - gap * gap / (slope * slope + threshold), T(0.0));
-  return t * t * (2.0 - t);
+std::array<T, 2> limited_fractions(const T& slope_l, const T& slope_r, const T& difference, double threshold) {
+  const T size_l = slope_l * slope_l + threshold, size_r = slope_r * slope_r + threshold;
+  const T inverse = 1.0 / (size_l * size_r);
+  const auto fraction = [&](const T& slope, const T& other_size) {
+    const T gap = slope - difference;
+    const T t = maximum(T(1.0) - gap * gap * (inverse * other_size), T(0.0));
+    return t * t * (2.0 - t);
+  };
+  return {fraction(slope_l, size_r), fraction(slope_r, size_l)};
 }
 
 inline Pack dot(const GradientRow& g, const double* arm) {
@@ -83,7 +89,6 @@ struct Rows<Pack> {
   static Pack cell(const FaceInput& in, int c) { return Pack::load(in.cells[c].v); }
   static Pack slope(const FaceInput& in, int c, const double* arm) { return dot(in.gradients[c], arm); }
   static void columns(const Pack rows[8], Pack out[8]) { transpose(rows, out); }
-  static double value(const Pack& row, int k) { return row[k]; }
 };
 
 template <>
@@ -100,37 +105,64 @@ struct Rows<Dual<Pack>> {
     transpose(part, turned);
     for (int i = 0; i < 8; ++i) out[i].d = turned[i];
   }
-  static double value(const Dual<Pack>& row, int k) { return row.v[k]; }
 };
 
-/// The state of cell `side` of lane i, taken to the face.
+/// Extrapolation leaves density and pressure at least a tenth of the cell's own.
+template <class T>
+T least_row(const T& own) {
+  constexpr Pack::Vector share = {0.1, 0, 0, 0, 0.1, 0, 0, 0};
+  constexpr Pack::Vector offset = {0, -1e300, -1e300, -1e300, 0, -1e300, -1e300, -1e300};
+  return own * Pack(share) + Pack(offset);
+}
+
+/// The state of cell `side` of lane i, taken to the face without a limiter.
 template <Reconstruction R, class T>
-T face_row(const FaceInput& in, const mesh::FaceBlock& b, int i, int side, bool boundary) {
-  const int c = b.cell[side][i];
-  const T own = Rows<T>::cell(in, c);
+T face_row(const FaceInput& in, const mesh::FaceBlock& b, int i, int side) {
+  const T own = Rows<T>::cell(in, b.cell[side][i]);
   if constexpr (R == Reconstruction::first_order) return own;
-  const double* arm = b.arm[i][side];
-  T change = Rows<T>::slope(in, c, arm);
-  if constexpr (R == Reconstruction::limited) {
-    if (!boundary) {
-      double across[3];  // from this cell's centroid to the other's
-      for (int k = 0; k < 3; ++k) across[k] = arm[k] - b.arm[i][1 - side][k];
-      const T difference = Rows<T>::cell(in, b.cell[1 - side][i]) - own;
-      change = limited_fraction(Rows<T>::slope(in, c, across), difference, in.limiter_threshold) * change;
-    }
-  }
-  const T at_face = own + change;
-  // an extrapolation towards vacuum falls back to the cell's own state
-  const auto too_low = [&](int k) { return Rows<T>::value(at_face, k) < 0.1 * Rows<T>::value(own, k); };
-  return too_low(0) || too_low(4) ? own : at_face;
+  return maximum(own + Rows<T>::slope(in, b.cell[side][i], b.arm[i][side]), least_row(own));
+}
+
+/// The states of both cells of lane i, taken to the face and limited against each other.
+template <class T>
+std::array<T, 2> limited_face_rows(const FaceInput& in, const mesh::FaceBlock& b, int i) {
+  const int l = b.cell[0][i], r = b.cell[1][i];
+  const double *arm_l = b.arm[i][0], *arm_r = b.arm[i][1];
+  const double across[3] = {arm_l[0] - arm_r[0], arm_l[1] - arm_r[1], arm_l[2] - arm_r[2]};  // left to right centroid
+  const T own_l = Rows<T>::cell(in, l), own_r = Rows<T>::cell(in, r);
+  const auto fraction = limited_fractions(Rows<T>::slope(in, l, across), Rows<T>::slope(in, r, across), own_r - own_l,
+                                          in.limiter_threshold);
+  return {maximum(own_l + fraction[0] * Rows<T>::slope(in, l, arm_l), least_row(own_l)),
+          maximum(own_r + fraction[1] * Rows<T>::slope(in, r, arm_r), least_row(own_r))};
+}
+
+template <class T>
+Side<T> side_of(const T rows[8]) {
+  T columns[8];
+  Rows<T>::columns(rows, columns);
+  return {{columns[0], columns[1], columns[2], columns[3], columns[4]}, columns[kMach]};
+}
+
+/// One side without a limiter: boundaries, where there is nothing to limit against, and first order.
+template <Reconstruction R, class T>
+Side<T> face_side(const FaceInput& in, const mesh::FaceBlock& b, int side) {
+  T rows[8];
+  for (int i = 0; i < 8; ++i) rows[i] = face_row<R, T>(in, b, i, side);
+  return side_of(rows);
 }
 
 template <Reconstruction R, class T>
-Side<T> face_side(const FaceInput& in, const mesh::FaceBlock& b, int side, bool boundary) {
-  T rows[8], columns[8];
-  for (int i = 0; i < 8; ++i) rows[i] = face_row<R, T>(in, b, i, side, boundary);
-  Rows<T>::columns(rows, columns);
-  return {{columns[0], columns[1], columns[2], columns[3], columns[4]}, columns[kMach]};
+std::array<Side<T>, 2> face_sides(const FaceInput& in, const mesh::FaceBlock& b) {
+  if constexpr (R == Reconstruction::limited) {
+    T l[8], r[8];
+    for (int i = 0; i < 8; ++i) {
+      const auto both = limited_face_rows<T>(in, b, i);
+      l[i] = both[0], r[i] = both[1];
+    }
+    return {side_of(l), side_of(r)};
+  } else {
+    return {face_side<R, T>(in, b, 0), face_side<R, T>(in, b, 1)};
+  }
 }
 
 /// The part of a result that is summed: the value, or in linearised kernels the derivative.
@@ -144,15 +176,33 @@ void flux_rows(const Flux<T>& f, const Pack& area, Pack rows[8]) {
   transpose(columns, rows);
 }
 
+/// The next block's cells are scattered in memory: ask for them while this block is worked on.
+template <Reconstruction R, class T>
+void prefetch(const FaceInput& in, const mesh::FaceBlock& b) {
+  constexpr bool dual = !std::is_same_v<T, Pack>;
+  for (int side = 0; side < 2; ++side)
+    for (int i = 0; i < mesh::kLanes; ++i) {
+      const int c = b.cell[side][i];
+      __builtin_prefetch(&in.cells[c]);
+      if constexpr (dual) __builtin_prefetch(&in.d_cells[c]);
+      if constexpr (R != Reconstruction::first_order)
+        for (int d = 0; d < 3; ++d) {
+          __builtin_prefetch(&in.gradients[c][d]);
+          if constexpr (dual) __builtin_prefetch(&in.d_gradients[c][d]);
+        }
+    }
+}
+
 inline void add(Row& row, const Pack& x) { (Pack::load(row.v) + x).store(row.v); }
 
 /// Interior faces: rates[cell] += what leaves. T = Dual<Pack> gives the derivative along d_cells.
 template <class FluxScheme, Reconstruction R, class T>
-void sum_interior(const FaceInput& in, const mesh::FaceBlock* blocks, int count, Row* rates) {
+[[gnu::flatten]] void sum_interior(const FaceInput& in, const mesh::FaceBlock* blocks, int count, Row* rates) {
   for (int k = 0; k < count; ++k) {
     const mesh::FaceBlock& b = blocks[k];
+    if (k + 1 < count) prefetch<R, T>(in, blocks[k + 1]);
     const FaceGeometry face = face_geometry(in, b);
-    const Side<T> l = face_side<R, T>(in, b, 0, false), r = face_side<R, T>(in, b, 1, false);
+    const auto [l, r] = face_sides<R, T>(in, b);
     const T mach = minimum(maximum(maximum(l.mach, r.mach), T(0.0)), T(1.0));
     Pack rows[8];
     flux_rows(FluxScheme::flux(l.state, r.state, face.normal, mach, in.gamma), face.area, rows);
@@ -169,11 +219,11 @@ State<T> boundary_state(BoundaryKind kind, const State<T>& s, const FaceInput& i
 }
 
 template <Reconstruction R, class T>
-void sum_boundary(const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int count, Row* rates) {
+[[gnu::flatten]] void sum_boundary(const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int count, Row* rates) {
   for (int k = 0; k < count; ++k) {
     const mesh::FaceBlock& b = blocks[k];
     const FaceGeometry face = face_geometry(in, b);
-    const State<T> inside = face_side<R, T>(in, b, 0, true).state;
+    const State<T> inside = face_side<R, T>(in, b, 0).state;
     Pack rows[8];
     flux_rows(physical_flux(boundary_state(kind, inside, in, face.normal), face.normal, in.gamma), face.area, rows);
     for (int i = 0; i < b.count; ++i) add(rates[b.cell[0][i]], rows[i]);

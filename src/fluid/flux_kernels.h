@@ -43,8 +43,8 @@ inline void store_column(const Flux<Dual<Pack>>& f, const Pack& area, int k, Blo
 template <class FluxScheme>
 void flux_jacobian(const FaceInput& in, const mesh::FaceBlock& b, BlockPack sides[2]) {
   const FaceGeometry face = face_geometry(in, b);
-  const auto l = face_side<Reconstruction::first_order, Pack>(in, b, 0, false);
-  const auto r = face_side<Reconstruction::first_order, Pack>(in, b, 1, false);
+  const auto l = face_side<Reconstruction::first_order, Pack>(in, b, 0);
+  const auto r = face_side<Reconstruction::first_order, Pack>(in, b, 1);
   const Dual<Pack> mach = {minimum(maximum(l.mach, r.mach), Pack(1.0)), Pack(0.0)};  // frozen
   const auto fixed_l = constant_state(l.state), fixed_r = constant_state(r.state);
   for (int k = 0; k < kVariables; ++k) {

@@ -56,8 +56,16 @@ NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options) :
   } else {
     petsc(MatCreateSNESMF(snes_, product_.out()));
   }
-  if (options_.preconditioner->assembled) assembled_ = euler.make_jacobian(options_.preconditioner->matrix);
-  petsc(SNESSetJacobian(snes_, product_, assembled_ ? Mat(assembled_) : Mat(product_), form_jacobian, this));
+  Mat for_preconditioner = product_;
+  if (options_.preconditioner->assembled) {
+    jacobian_.emplace(mesh);
+    for_preconditioner = jacobian_->matrix();
+    if (options_.preconditioner->point_matrix) {
+      petsc(MatConvert(jacobian_->matrix(), MATAIJ, MAT_INITIAL_MATRIX, converted_.out()));
+      for_preconditioner = converted_;
+    }
+  }
+  petsc(SNESSetJacobian(snes_, product_, for_preconditioner, form_jacobian, this));
   petsc(SNESSetType(snes_, SNESNEWTONLS));
   petsc(SNESSetConvergenceTest(snes_, test_convergence, this, nullptr));
   petsc(SNESSetTolerances(snes_, 0, 0, 0, options_.max_iterations, PETSC_MAX_INT));
@@ -112,12 +120,16 @@ PetscErrorCode NewtonKrylov::form_function(SNES, Vec x, Vec f, void* context) {
   return self.guard_.run([&] { self.evaluate(x, f); });
 }
 
-PetscErrorCode NewtonKrylov::form_jacobian(SNES, Vec x, Mat j, Mat p, void* context) {
+PetscErrorCode NewtonKrylov::form_jacobian(SNES, Vec x, Mat j, Mat, void* context) {
   auto& self = *static_cast<NewtonKrylov*>(context);
   return self.guard_.run([&] {
     const StageEquation& e = *self.equation_;
-    if (self.assembled_ && self.rebuild_) {
-      self.euler_.first_order_jacobian(x, e.frames, e.rate, e.mass, p);
+    if (self.jacobian_ && self.rebuild_) {
+      self.euler_.first_order_jacobian(x, e.frames, e.rate, e.mass, *self.jacobian_);
+      if (self.converted_) {
+        Mat reused = self.converted_;
+        petsc(MatConvert(self.jacobian_->matrix(), MATAIJ, MAT_REUSE_MATRIX, &reused));
+      }
       self.rebuild_ = false;
     }
     if (self.options_.exact_jacobian) self.euler_.linearize(x, e.frames);

@@ -66,7 +66,9 @@ class NewtonKrylov {
   CallbackGuard guard_;
   VecHandle volume_;  ///< per unknown
   VecHandle residual_, work_;
-  MatHandle product_, assembled_;
+  MatHandle product_;
+  std::optional<BlockJacobian> jacobian_;
+  MatHandle converted_;  ///< jacobian_ in the preconditioner's own storage, when that is not BAIJ
   SnesHandle snes_;
   double volume_norm_ = 0, surface_norm_ = 0;  ///< sizes of the terms, for the round-off floor
   const StageEquation* equation_ = nullptr;

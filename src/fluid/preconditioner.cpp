@@ -52,11 +52,11 @@ void set_up_none(PC pc, int, int) { petsc(PCSetType(pc, PCNONE)); }
 }  // namespace
 
 const Preconditioner kPreconditioners[5] = {
-    {"ilu", true, MATBAIJ, set_up_ilu},
-    {"asm", true, MATBAIJ, set_up_asm},
-    {"point_block_jacobi", true, MATBAIJ, set_up_point_block_jacobi},
-    {"lu", true, MATAIJ, set_up_lu},
-    {"none", false, MATBAIJ, set_up_none},
+    {"ilu", true, false, set_up_ilu},
+    {"asm", true, false, set_up_asm},
+    {"point_block_jacobi", true, false, set_up_point_block_jacobi},
+    {"lu", true, true, set_up_lu},
+    {"none", false, false, set_up_none},
 };
 
 const Preconditioner& preconditioner(const std::string& name) {

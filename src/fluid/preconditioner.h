@@ -9,7 +9,7 @@ namespace windhover::fluid {
 struct Preconditioner {
   const char* name;
   bool assembled;   ///< needs the first-order Jacobian
-  MatType matrix;   ///< its storage
+  bool point_matrix;  ///< wants it entry by entry (AIJ), not in blocks
   void (*set_up)(PC pc, int ilu_levels, int ranks);  ///< called once; solvers' options still override
 };
 

@@ -1,0 +1,139 @@
+#include "fluid/block_jacobian.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace windhover::fluid {
+
+using mesh::Index;
+
+namespace {
+
+constexpr int kEntries = kVariables * kVariables;
+
+/// Block offsets by (row, column) of a sequential BAIJ matrix.
+class BlockPattern {
+ public:
+  explicit BlockPattern(Mat matrix) : matrix_(matrix) {
+    PetscBool done = PETSC_FALSE;
+    petsc(MatGetRowIJ(matrix_, 0, PETSC_FALSE, PETSC_TRUE, &rows_, &start_, &column_, &done));
+    if (!done) throw std::logic_error("no access to the pattern of a block matrix");
+  }
+  ~BlockPattern() {
+    PetscBool done = PETSC_FALSE;
+    MatRestoreRowIJ(matrix_, 0, PETSC_FALSE, PETSC_TRUE, &rows_, &start_, &column_, &done);
+  }
+  BlockPattern(const BlockPattern&) = delete;
+  BlockPattern& operator=(const BlockPattern&) = delete;
+
+  int find(Index row, Index column) const {
+    const PetscInt* end = column_ + start_[row + 1];
+    const PetscInt* found = std::lower_bound(column_ + start_[row], end, column);
+    if (found == end || *found != column) throw std::logic_error("a face is not in the block matrix");
+    return static_cast<int>(found - column_);
+  }
+
+ private:
+  Mat matrix_;
+  PetscInt rows_ = 0;
+  const PetscInt *start_ = nullptr, *column_ = nullptr;
+};
+
+}  // namespace
+
+BlockJacobian::BlockJacobian(const mesh::Mesh& mesh) {
+  preallocate(mesh);
+  find_slots(mesh);
+}
+
+void BlockJacobian::preallocate(const mesh::Mesh& mesh) {
+  std::vector<PetscInt> inside(mesh.n_owned, 1), outside(mesh.n_owned, 0);
+  const auto count = [&](Index row, Index column) {
+    if (row < mesh.n_owned) ++(column < mesh.n_owned ? inside : outside)[row];
+  };
+  for (const auto& b : mesh.faces)
+    for (int i = 0; i < b.count; ++i) count(b.cell[0][i], b.cell[1][i]), count(b.cell[1][i], b.cell[0][i]);
+  const PetscInt n = kVariables * mesh.n_owned;
+  petsc(MatCreateBAIJ(mesh.comm, kVariables, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 0, inside.data(), 0,
+                      outside.data(), matrix_.out()));
+  // an entry for each pair of neighbours fixes the pattern
+  const double zero[kEntries] = {};
+  const auto insert = [&](Index row, Index column) {
+    if (row < mesh.n_owned)
+      petsc(MatSetValuesBlocked(matrix_, 1, &mesh.global_cell[row], 1, &mesh.global_cell[column], zero, INSERT_VALUES));
+  };
+  for (Index c = 0; c < mesh.n_owned; ++c) insert(c, c);
+  for (const auto& b : mesh.faces)
+    for (int i = 0; i < b.count; ++i) insert(b.cell[0][i], b.cell[1][i]), insert(b.cell[1][i], b.cell[0][i]);
+  finish();
+}
+
+void BlockJacobian::find_slots(const mesh::Mesh& mesh) {
+  const PetscInt* outside_columns = parts().outside_columns;
+  const BlockPattern inside(parts().inside);
+  std::optional<BlockPattern> outside;
+  PetscInt n_outside = 0;
+  if (parts().outside) {
+    outside.emplace(parts().outside);
+    petsc(MatGetSize(parts().outside, nullptr, &n_outside));
+    n_outside /= kVariables;
+  }
+  const auto slot = [&](Index row, Index column) -> Slot {
+    if (row >= mesh.n_owned) return {};
+    if (column < mesh.n_owned) return {inside.find(row, column), false};
+    const PetscInt* end = outside_columns + n_outside;
+    const auto local = std::lower_bound(outside_columns, end, mesh.global_cell[column]) - outside_columns;
+    return {outside->find(row, static_cast<Index>(local)), true};
+  };
+  for (const auto& b : mesh.faces)
+    for (int i = 0; i < mesh::kLanes; ++i) {
+      const Index l = b.cell[0][i], r = b.cell[1][i];
+      face_.push_back(i < b.count ? std::array<Slot, 4>{slot(l, l), slot(l, r), slot(r, l), slot(r, r)}
+                                  : std::array<Slot, 4>{});
+    }
+  for (Index c = 0; c < mesh.n_owned; ++c) diagonal_.push_back(inside.find(c, c));
+}
+
+BlockJacobian::Parts BlockJacobian::parts() const {
+  PetscBool parallel = PETSC_FALSE;
+  petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(Mat(matrix_)), MATMPIBAIJ, &parallel));
+  Parts p{matrix_, nullptr, nullptr};
+  if (parallel) petsc(MatMPIBAIJGetSeqBAIJ(matrix_, &p.inside, &p.outside, &p.outside_columns));
+  return p;
+}
+
+void BlockJacobian::begin() {
+  petsc(MatZeroEntries(matrix_));
+  petsc(MatSeqBAIJGetArray(parts().inside, &inside_));
+  if (parts().outside) petsc(MatSeqBAIJGetArray(parts().outside, &outside_));
+}
+
+void BlockJacobian::add_face(size_t face, int side, const double* block, double scale) {
+  for (int row = 0; row < 2; ++row) {
+    const Slot& s = face_[face][2 * row + side];
+    if (s.offset < 0) continue;
+    double* to = block_at(s);
+    const double sign = row == 0 ? scale : -scale;
+    for (int k = 0; k < kEntries; ++k) to[k] += sign * block[k];
+  }
+}
+
+void BlockJacobian::add_diagonal(Index cell, const double* block, double scale) {
+  double* to = inside_ + size_t(diagonal_[cell]) * kEntries;
+  for (int k = 0; k < kEntries; ++k) to[k] += scale * block[k];
+}
+
+void BlockJacobian::add_identity(Index cell, double value) {
+  double* to = inside_ + size_t(diagonal_[cell]) * kEntries;
+  for (int k = 0; k < kVariables; ++k) to[(kVariables + 1) * k] += value;
+}
+
+void BlockJacobian::finish() {
+  if (inside_) petsc(MatSeqBAIJRestoreArray(parts().inside, &inside_));
+  if (outside_) petsc(MatSeqBAIJRestoreArray(parts().outside, &outside_));
+  inside_ = outside_ = nullptr;
+  petsc(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
+  petsc(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
+}
+
+}  // namespace windhover::fluid
