@@ -54,7 +54,7 @@ int verify_command(const Arguments& a) {
 }
 
 int keys_command() {
-  fmt::print("{}", case_file_documentation());
+  fmt::print("{}{}", case_file_documentation(), verify_documentation());
   return 0;
 }
 
@@ -96,7 +96,7 @@ int run_command(int argc, char** argv) {
   verify_app->add_option("CASEDIR", a.path, "folder with verify.toml")->required();
   verify_app->add_flag("--quick", a.quick, "only the runs marked quick");
 
-  app.add_subcommand("keys", "print the reference of all case keys")->group("");
+  app.add_subcommand("keys", "print the reference of all keys")->group("");
 
   try {
     app.parse(argc, argv);

@@ -1,5 +1,6 @@
 #include "app/session.h"
 
+#include <csignal>
 #include <cstdlib>
 #include <sstream>
 #include <vector>
@@ -33,6 +34,7 @@ void print_once(const std::string& message) {
 }  // namespace
 
 Session::Session(const std::string& options) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error like a full disk, not the end
   std::vector<std::string> words = {"windhover", "-no_signal_handler"};
   std::istringstream stream(options);
   for (std::string word; stream >> word;) words.push_back(word);

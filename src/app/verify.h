@@ -37,6 +37,9 @@ struct Verdict {
 
 VerifyTable load_verify(const std::filesystem::path& file);
 
+/// The part of docs/case-file.md on verify.toml.
+std::string verify_documentation();
+
 /// Judges one figure by the values that check.py printed; `done` are the runs that were made.
 Verdict judge(const VerifyFigure& figure, const nlohmann::json& values, const std::vector<VerifyRun>& done);
 

@@ -5,6 +5,7 @@
 
 #include "app/verify.h"
 #include "base/errors.h"
+#include "io/options_documenter.h"
 #include "io/options_reader.h"
 
 namespace windhover::app {
@@ -77,6 +78,11 @@ VerifyTable load_verify(const std::filesystem::path& file) {
   io::read_options(root, table);
   validate(table, root);
   return table;
+}
+
+std::string verify_documentation() {
+  return "\n# Keys of verify.toml\n\nThe runs of `windhover verify` and the figures they should give.\n" +
+         io::options_documentation<VerifyTable>();
 }
 
 Verdict judge(const VerifyFigure& figure, const nlohmann::json& values, const std::vector<VerifyRun>& done) {

@@ -26,9 +26,10 @@ void merge_element(toml::array& target, const std::string& name, toml::node& fro
 void merge(toml::table& target, toml::table& from) {
   for (auto&& [key, node] : from) {
     toml::node* there = target.get(key);
-    if (there && there->is_table() && node.is_table()) {
+    const bool on_the_way = node.is_table() && !node.as_table()->is_inline();  // a part of the dotted key
+    if (there && there->is_table() && on_the_way) {
       merge(*there->as_table(), *node.as_table());
-    } else if (there && there->is_array() && node.is_table()) {
+    } else if (there && there->is_array() && on_the_way) {
       for (auto&& [name, element] : *node.as_table())
         merge_element(*there->as_array(), std::string(name.str()), element, std::string(key.str()));
     } else {

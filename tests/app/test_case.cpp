@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "../io/scratch.h"
+#include "app/verify.h"
 #include "base/errors.h"
 #include "io/file.h"
 
@@ -113,6 +114,7 @@ TEST_CASE("overrides: values, bare words, elements of arrays", "[app]") {
   CHECK(c.wind.velocity_m_s == Eigen::Vector3d(1, 2, 3));
   CHECK(c.mesh.parameters.at("aspect") == 1.5);
   CHECK(c.mesh.file == (file.scratch.path / "flap/a b.msh").string());
+  CHECK(load_case(file.path, {"mesh.parameters={m=1}"}).mesh.parameters == std::map<std::string, double>{{"m", 1}});
 }
 
 TEST_CASE("the effective case reads back as the same case", "[app]") {
@@ -164,5 +166,6 @@ TEST_CASE("wrong cases: the place is the line of the file", "[app]") {
 
 TEST_CASE("docs/case-file.md is current", "[app]") {
   INFO("renew it with `windhover keys > docs/case-file.md`");
-  CHECK(io::read_text(WINDHOVER_SOURCE_DIR "/docs/case-file.md") == app::case_file_documentation());
+  CHECK(io::read_text(WINDHOVER_SOURCE_DIR "/docs/case-file.md") ==
+        app::case_file_documentation() + app::verify_documentation());
 }

@@ -1,6 +1,7 @@
 """The command line as a user meets it: test_commands.py WINDHOVER [unittest arguments]."""
 import os
 import pathlib
+import resource
 import signal
 import subprocess
 import sys
@@ -112,6 +113,69 @@ class Commands(unittest.TestCase):
             process.send_signal(number)
             self.assertEqual(process.wait(), code)
             self.assertTrue(list((self.folder / out / "checkpoint").glob("*.h5")))
+
+    def run_case(self, *arguments, **others):
+        return self.run_program("run", "box/case.toml", "--out", "out", *arguments, **others)
+
+    def newest_checkpoint(self):
+        return max((self.folder / "out/checkpoint").glob("*.h5"))
+
+    def history(self):
+        """The rows without their last column, the wall time."""
+        return [line.rpartition(",")[0] for line in (self.folder / "out/history.csv").read_text().splitlines()]
+
+    def test_restart_continues_bit_for_bit(self):
+        self.make_mesh()
+        self.assertEqual(self.run_case("--steps", "6").returncode, 0)
+        whole = self.history()
+        (self.folder / "out").rename(self.folder / "whole")
+        self.assertEqual(self.run_case("--steps", "4").returncode, 0)
+        with open(self.folder / "out/history.csv", "a") as file:
+            file.write("5,of a run that was killed\n6,")
+        self.assertEqual(self.run_case("--restart", "--steps", "6").returncode, 0)
+        self.assertEqual(self.history(), whole)
+
+    def test_wrong_checkpoints(self):
+        self.make_mesh()
+        self.check_error(self.run_case("--restart"), "no checkpoint")
+        self.assertEqual(self.run_case().returncode, 0)
+        history = (self.folder / "out/history.csv").read_text()
+        self.run_program("mesh", "box/case.toml", "--set", "mesh.parameters.n=2")
+        self.check_error(self.run_case("--restart", "--set", "mesh.parameters.n=2"), "another mesh")
+        os.truncate(self.newest_checkpoint(), self.newest_checkpoint().stat().st_size - 1000)
+        self.check_error(self.run_case("--restart"), self.newest_checkpoint().name, "cut short")
+        self.check_error(self.run_case("--restart", ranks=2), self.newest_checkpoint().name, "cut short")
+        self.newest_checkpoint().write_text("something else")
+        self.check_error(self.run_case("--restart"), self.newest_checkpoint().name, "no checkpoint")
+        self.assertEqual((self.folder / "out/history.csv").read_text(), history)
+
+    def test_full_disk(self):
+        self.make_mesh()
+        command = [WINDHOVER, "run", "box/case.toml", "--out", "out", "--steps", "100000000",
+                   "--set", "output.checkpoint_interval=20"]
+        process = subprocess.Popen(command, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        checkpoint = self.folder / "out/checkpoint/step_00000020.h5"
+        while process.poll() is None and not checkpoint.exists():
+            time.sleep(0.001)
+        # From here on files may not grow beyond this size; tables are smaller, a checkpoint reserves more.
+        resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (200_000, resource.RLIM_INFINITY))
+        _, errors = process.communicate()
+        self.assertEqual(process.returncode, 2, errors)
+        self.assertRegex(errors, "^windhover: .*/step_[0-9]+.h5.tmp: cannot write this file: File too large\n$")
+        self.assertFalse(list(checkpoint.parent.glob("*.tmp")))
+        last = int(self.newest_checkpoint().stem.removeprefix("step_"))
+        self.assertEqual(self.run_case("--restart", "--steps", str(last + 2)).returncode, 0)
+        self.assertEqual(len(self.history()), 1 + last + 3)
+
+    def test_wrong_meshes(self):
+        self.make_mesh()
+        mesh = self.folder / "box/box_n3.msh"
+        self.check_error(self.run_case("--set", "fluid.boundary={}"), "sides")
+        mesh.write_text(mesh.read_text()[:2000])
+        self.check_error(self.run_case(), "box_n3.msh")
+        mesh.write_text("nothing")
+        self.check_error(self.run_case(), "box_n3.msh: not a gmsh mesh")
+        self.assertFalse((self.folder / "out").exists())
 
     def test_verify(self):
         self.write("box/verify.toml", """
