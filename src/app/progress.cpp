@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "app/session.h"
 #include "base/collective.h"
 
 namespace windhover::app {
@@ -24,11 +25,16 @@ std::string progress_line(const StepReport& report, double fraction, double elap
 }
 
 Progress::Progress(double begin_s, double end_s, MPI_Comm comm, std::FILE* out)
-    : begin_s_(begin_s), end_s_(end_s), out_(out), speaks_(rank_of(comm) == 0), terminal_(isatty(fileno(out))) {}
+    : begin_s_(begin_s),
+      end_s_(end_s),
+      out_(out),
+      speaks_(rank_of(comm) == 0),
+      // mpiexec hands its ranks a terminal even when its own output goes into a file
+      terminal_(isatty(fileno(out)) && !started_by_mpiexec()) {}
 
 Progress::~Progress() {
   if (pending_.empty()) return;
-  fmt::print(out_, "{}\n", terminal_ ? "" : pending_);
+  fmt::print(out_, "{}{}\n", terminal_ ? "\r\033[K" : "", pending_);
   std::fflush(out_);
 }
 
@@ -39,15 +45,11 @@ void Progress::report(const StepReport& report) {
   const double fraction =
       end_s_ > begin_s_ ? std::clamp((report.time_s - begin_s_) / (end_s_ - begin_s_), 0.0, 1.0) : 1.0;
   pending_ = progress_line(report, fraction, elapsed);
-  if (terminal_) {
-    fmt::print(out_, "\r\033[K{}", pending_);
-  } else {
-    constexpr auto interval = std::chrono::milliseconds(500);
-    if (last_ != Clock::time_point::min() && now - last_ < interval) return;
-    fmt::print(out_, "{}\n", pending_);
-    pending_.clear();
-    last_ = now;
-  }
+  const auto interval = std::chrono::milliseconds(terminal_ ? 50 : 500);
+  if (last_ != Clock::time_point::min() && now - last_ < interval) return;
+  last_ = now;
+  fmt::print(out_, "{}{}{}", terminal_ ? "\r\033[K" : "", pending_, terminal_ ? "" : "\n");
+  if (!terminal_) pending_.clear();
   std::fflush(out_);
 }
 

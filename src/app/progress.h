@@ -17,7 +17,8 @@ struct StepReport {
 /// `fraction` of the run is done after `elapsed_s`.
 std::string progress_line(const StepReport& report, double fraction, double elapsed_s);
 
-/// Reports on rank 0. Without a terminal: plain lines, at most two a second, and the last one always.
+/// Reports on rank 0; the last step always, the others as far as there is time to read them. Without a terminal: plain
+/// lines, at most two a second.
 class Progress {
  public:
   Progress(double begin_s, double end_s, MPI_Comm comm, std::FILE* out = stdout);

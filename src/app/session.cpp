@@ -18,8 +18,6 @@ bool in_mpi() {
   return begun && !ended;
 }
 
-bool started_by_mpiexec() { return std::getenv("OMPI_COMM_WORLD_SIZE") || std::getenv("PMI_SIZE"); }
-
 /// Prints on rank 0. mpiexec kills all ranks when the first fails, so they meet here before any of them ends.
 void print_once(const std::string& message) {
   const bool open_mpi = !in_mpi() && started_by_mpiexec();
@@ -32,6 +30,8 @@ void print_once(const std::string& message) {
 }
 
 }  // namespace
+
+bool started_by_mpiexec() { return std::getenv("OMPI_COMM_WORLD_SIZE") || std::getenv("PMI_SIZE"); }
 
 Session::Session(const std::string& options) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error like a full disk, not the end

@@ -14,6 +14,8 @@ class Session {
   Session& operator=(const Session&) = delete;
 };
 
+bool started_by_mpiexec();
+
 /// UserError when started by mpiexec: for commands that are one process and start others.
 void reject_mpiexec(const char* command);
 
