@@ -3,9 +3,9 @@
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "bandwidth.h"
+#include "base/memory.h"
 #include "fluid/flow_solver.h"
 #include "fluid/initial.h"
 
@@ -46,12 +46,10 @@ double bytes_of_residual(const mesh::Mesh& mesh) {
          + cells * (64 + 64 + 64 + 40);            // rates cleared, summed, read, stored
 }
 
-double resident_bytes() {
-  std::ifstream status("/proc/self/status");
-  double kilobytes = 0;
-  for (std::string line; std::getline(status, line);)
-    if (line.rfind("VmRSS:", 0) == 0) std::istringstream(line.substr(6)) >> kilobytes;
-  double bytes = 1024 * kilobytes;
+/// Of all ranks, without what has been freed.
+double memory_in_use() {
+  release_free_memory();
+  double bytes = resident_bytes();
   MPI_Allreduce(MPI_IN_PLACE, &bytes, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
   return bytes;
 }
@@ -59,7 +57,7 @@ double resident_bytes() {
 class Bench {
  public:
   Bench(const std::string& file, std::string name)
-      : name_(std::move(name)), before_(resident_bytes()), mesh_(mesh::read_mesh(file, 1.0, PETSC_COMM_WORLD)) {
+      : name_(std::move(name)), before_(memory_in_use()), mesh_(mesh::read_mesh(file, 1.0, PETSC_COMM_WORLD)) {
     MPI_Comm_size(PETSC_COMM_WORLD, &ranks_);
   }
 
@@ -154,7 +152,7 @@ class Bench {
   }
 
   void step() {
-    const double loaded = resident_bytes();
+    const double loaded = memory_in_use();
     EulerOperator euler(mesh_, model(Reconstruction::linear));
     FlowOptions options;
     {
@@ -164,7 +162,7 @@ class Bench {
       petsc(VecCopy(start(euler), solver.state().q));
       solver.advance([this](double) { return frames(); }, 1e-6);
       petsc(PetscPrintf(PETSC_COMM_WORLD, "%-40s %8.0f bytes/cell\n", (name_ + "/memory explicit").c_str(),
-                        (resident_bytes() - before_) / mesh_.n_global));
+                        (memory_in_use() - before_) / mesh_.n_global));
     }
     FlowSolver solver(euler, options);
     petsc(VecCopy(start(euler), solver.state().q));
@@ -173,7 +171,7 @@ class Bench {
     const Timing t = time_of([&] { last = solver.advance([this](double) { return frames(); }, dt); }, 7);
     report("step crank_nicolson Courant 20", t, {{"newton", last.newton()}, {"krylov", last.krylov()}});
     petsc(PetscPrintf(PETSC_COMM_WORLD, "%-40s %8.0f bytes/cell (mesh and PETSc alone: %.0f)\n",
-                      (name_ + "/memory implicit").c_str(), (resident_bytes() - before_) / mesh_.n_global,
+                      (name_ + "/memory implicit").c_str(), (memory_in_use() - before_) / mesh_.n_global,
                       (loaded - before_) / mesh_.n_global));
   }
 

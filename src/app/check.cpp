@@ -1,26 +1,11 @@
 // `windhover check`: everything but the steps.
-#include <fstream>
-#include <sstream>
-
 #include "app/flow_setup.h"
 #include "app/simulation.h"
-#include "base/errors.h"
+#include <fmt/format.h>
+#include "base/memory.h"
 #include "mesh/quality.h"
-
 namespace windhover::app {
 namespace {
-
-/// Resident memory of all ranks, bytes.
-double resident_memory(MPI_Comm comm) {
-  std::ifstream status("/proc/self/status");
-  double kilobytes = 0;
-  for (std::string line; std::getline(status, line);)
-    if (line.rfind("VmRSS:", 0) == 0) std::istringstream(line.substr(6)) >> kilobytes;
-  double bytes = 1024 * kilobytes;
-  MPI_Allreduce(MPI_IN_PLACE, &bytes, 1, MPI_DOUBLE, MPI_SUM, comm);
-  return bytes;
-}
-
 /// Seconds of one residual.
 double time_residual(fluid::EulerOperator& euler, Vec q, const fluid::Frames& frames) {
   const VecHandle out = euler.make_vector();
@@ -52,7 +37,8 @@ int check_simulation(const Case& c) {
   const double dt = step_seconds(c) / s.time();
   const double courant = euler.courant_number(q, frames, dt);
   const double residual = time_residual(euler, q, frames);
-  const double memory = resident_memory(mesh.comm);
+  double memory = resident_bytes();
+  MPI_Allreduce(MPI_IN_PLACE, &memory, 1, MPI_DOUBLE, MPI_SUM, mesh.comm);
 
   // a step: measured once on rotors and airfoils (docs/decisions.md), in units of the residual timed here
   const auto& scheme = fluid::time_scheme(c.time.scheme);

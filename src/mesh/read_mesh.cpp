@@ -3,6 +3,7 @@
 #include <unordered_map>
 
 #include "base/errors.h"
+#include "base/memory.h"
 #include "mesh/build_faces.h"
 #include "mesh/cell_shape.h"
 #include "mesh/distribute.h"
@@ -106,9 +107,7 @@ void fill_cells(const MeshPart& part, const Numbering& numbering, Mesh& mesh) {
   mesh.point_node.shrink_to_fit();
 }
 
-}  // namespace
-
-Mesh read_mesh(const std::string& file, double scale, MPI_Comm comm) {
+Mesh build_mesh(const std::string& file, double scale, MPI_Comm comm) {
   Mesh mesh;
   mesh.comm = comm;
   FileMesh whole = read_and_check(file, scale, comm);
@@ -125,6 +124,14 @@ Mesh read_mesh(const std::string& file, double scale, MPI_Comm comm) {
   fill_cells(part, numbering, mesh);
   build_faces(part, numbering, mesh);
   mesh.halo = std::move(numbering.halo);
+  return mesh;
+}
+
+}  // namespace
+
+Mesh read_mesh(const std::string& file, double scale, MPI_Comm comm) {
+  Mesh mesh = build_mesh(file, scale, comm);
+  release_free_memory();  // reading takes several times what is kept
   return mesh;
 }
 
