@@ -101,7 +101,6 @@ EulerOperator::EulerOperator(const mesh::Mesh& mesh, FlowModel model)
   }
   cells_.resize(mesh_.n_cells);
   rates_.resize(mesh_.n_gradient);
-  base_ = make_vector();
 }
 
 VecHandle EulerOperator::make_vector() const {
@@ -176,12 +175,22 @@ FaceInput EulerOperator::face_input(const FrameState& frame) const {
   return in;
 }
 
-void EulerOperator::store_rates(Vec out) const {
-  double* values = nullptr;
-  petsc(VecGetArrayWrite(out, &values));
-  for (mesh::Index c = 0; c < mesh_.n_owned; ++c)
-    for (int k = 0; k < kVariables; ++k) values[5 * c + k] = rates_[c].v[k];
-  petsc(VecRestoreArrayWrite(out, &values));
+void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination) const {
+  double* to = nullptr;
+  const double *from = nullptr, *known = nullptr;
+  petsc(VecGetArrayWrite(out, &to));
+  petsc(VecGetArrayRead(x, &from));
+  if (combination.known) petsc(VecGetArrayRead(combination.known, &known));
+  for (mesh::Index c = 0; c < mesh_.n_owned; ++c) {
+    const double mass = combination.mass * mesh_.volume[c];
+    for (int k = 0; k < kVariables; ++k) {
+      const mesh::Index i = kVariables * c + k;
+      to[i] = mass * from[i] + combination.rate * rates_[c].v[k] + (known ? known[i] : 0.0);
+    }
+  }
+  if (combination.known) petsc(VecRestoreArrayRead(combination.known, &known));
+  petsc(VecRestoreArrayRead(x, &from));
+  petsc(VecRestoreArrayWrite(out, &to));
 }
 
 /// Rows and gradients of q.
@@ -191,7 +200,7 @@ void EulerOperator::prepare(Vec q, const Frames& frames) {
   frames_ = frames;
 }
 
-void EulerOperator::residual(Vec q, const Frames& frames, Vec out) {
+void EulerOperator::residual(Vec q, const Frames& frames, Vec out, const Combination& combination) {
   prepare(q, frames);
   std::fill(rates_.begin(), rates_.end(), Row{});
   const int r = static_cast<int>(model_.reconstruction);
@@ -201,17 +210,18 @@ void EulerOperator::residual(Vec q, const Frames& frames, Vec out) {
       [&](const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int n, int) {
         kBoundaryKernels.residual[r](in, kind, blocks, n, rates_.data());
       });
-  store_rates(out);
+  store_rates(q, out, combination);
 }
 
 void EulerOperator::linearize(Vec q, const Frames& frames) {
+  if (!base_) base_ = make_vector();
   petsc(VecCopy(q, base_));
   prepare(q, frames);
   d_cells_.resize(cells_.size());
   d_gradients_.resize(gradients_.size());
 }
 
-void EulerOperator::derivative(Vec dq, Vec out) {
+void EulerOperator::derivative(Vec dq, Vec out, const Combination& combination) {
   load_cells(base_, frames_, &dq, d_cells_);
   update_gradients(d_cells_, d_gradients_);
   std::fill(rates_.begin(), rates_.end(), Row{});
@@ -222,7 +232,7 @@ void EulerOperator::derivative(Vec dq, Vec out) {
       [&](const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int n, int) {
         kBoundaryKernels.derivative[r](in, kind, blocks, n, rates_.data());
       });
-  store_rates(out);
+  store_rates(dq, out, combination);
 }
 
 }  // namespace windhover::fluid

@@ -39,6 +39,12 @@ struct PatchFlux {
   mesh::Vec3 moment = mesh::Vec3::Zero();         ///< of that force about the inertial origin
 };
 
+/// How the rate of change R enters a result: mass V x + rate R + known.
+struct Combination {
+  double mass = 0, rate = 1;
+  Vec known = nullptr;
+};
+
 class EulerOperator {
  public:
   EulerOperator(const mesh::Mesh& mesh, FlowModel model);
@@ -49,13 +55,13 @@ class EulerOperator {
   /// A vector of conserved states: five per owned cell, block size 5.
   VecHandle make_vector() const;
 
-  /// out = Σ_faces [F(q)·A − q v_g·A] per cell (what leaves, not divided by the volume).
-  void residual(Vec q, const Frames& frames, Vec out);
+  /// out = mass V q + rate R(q) + known, with R = Σ_faces [F(q)·A − q v_g·A] per cell (what leaves, not divided by V).
+  void residual(Vec q, const Frames& frames, Vec out, const Combination& combination = {});
 
   /// Fixes the state for derivative().
   void linearize(Vec q, const Frames& frames);
-  /// out = d residual / dq · dq, exact (forward mode).
-  void derivative(Vec dq, Vec out);
+  /// out = (mass V + rate dR/dq) dq, exact (forward mode).
+  void derivative(Vec dq, Vec out, const Combination& combination = {});
 
   /// jacobian = scale · d(first-order residual)/dq + diagonal(mass_scale · volume).
   void first_order_jacobian(Vec q, const Frames& frames, double scale, double mass_scale, BlockJacobian& jacobian);
@@ -86,7 +92,7 @@ class EulerOperator {
                static_cast<int>(patch.blocks.size()), static_cast<int>(p));
     }
   }
-  void store_rates(Vec out) const;
+  void store_rates(Vec x, Vec out, const Combination& combination) const;
   void prepare(Vec q, const Frames& frames);
 
   const mesh::Mesh& mesh_;

@@ -16,8 +16,24 @@ struct alignas(64) Row {
 };
 inline constexpr int kMach = 5;  ///< column of the cell's relative Mach number, at most 1
 
-/// The three derivatives of a row, in zone axes.
-using GradientRow = std::array<Row, 3>;
+/// The three derivatives (zone axes) of the five variables, one after the other in two cache lines.
+struct alignas(64) GradientRow {
+  double v[16];
+
+  double at(int direction, int variable) const { return v[5 * direction + variable]; }
+  void store(const Pack derivatives[3]) {
+    for (int d = 0; d < 3; ++d)
+      for (int k = 0; k < kVariables; ++k) v[5 * d + k] = derivatives[d][k];
+    v[15] = 0;
+  }
+  /// The change of the variables along an arm; what is in the columns after them means nothing.
+  Pack along(const double* arm) const {
+    const auto first = Pack::load(v).v, second = Pack::load(v + 8).v;
+    const Pack y = __builtin_shufflevector(first, second, 5, 6, 7, 8, 9, 10, 11, 12);
+    const Pack z = __builtin_shufflevector(second, second, 2, 3, 4, 5, 6, 7, 0, 0);
+    return Pack(first) * arm[0] + y * arm[1] + z * arm[2];
+  }
+};
 
 enum class Reconstruction { first_order, linear, limited };
 
@@ -70,8 +86,10 @@ std::array<T, 2> limited_fractions(const T& slope_l, const T& slope_r, const T& 
   return {fraction(slope_l, size_r), fraction(slope_r, size_l)};
 }
 
-inline Pack dot(const GradientRow& g, const double* arm) {
-  return Pack::load(g[0].v) * arm[0] + Pack::load(g[1].v) * arm[1] + Pack::load(g[2].v) * arm[2];
+/// The change of a row along an arm; the Mach number is not reconstructed.
+inline Pack change(const GradientRow& g, const double* arm) {
+  constexpr Pack::Mask variables = {-1, -1, -1, -1, -1, 0, 0, 0};
+  return select(variables, g.along(arm), Pack(0.0));
 }
 
 /// States of one side of a block, as columns; T is Pack or Dual<Pack>.
@@ -87,7 +105,7 @@ struct Rows;  // access to value rows, or to value and derivative rows
 template <>
 struct Rows<Pack> {
   static Pack cell(const FaceInput& in, int c) { return Pack::load(in.cells[c].v); }
-  static Pack slope(const FaceInput& in, int c, const double* arm) { return dot(in.gradients[c], arm); }
+  static Pack slope(const FaceInput& in, int c, const double* arm) { return change(in.gradients[c], arm); }
   static void columns(const Pack rows[8], Pack out[8]) { transpose(rows, out); }
 };
 
@@ -95,7 +113,7 @@ template <>
 struct Rows<Dual<Pack>> {
   static Dual<Pack> cell(const FaceInput& in, int c) { return {Pack::load(in.cells[c].v), Pack::load(in.d_cells[c].v)}; }
   static Dual<Pack> slope(const FaceInput& in, int c, const double* arm) {
-    return {dot(in.gradients[c], arm), dot(in.d_gradients[c], arm)};
+    return {change(in.gradients[c], arm), change(in.d_gradients[c], arm)};
   }
   static void columns(const Dual<Pack> rows[8], Dual<Pack> out[8]) {
     Pack part[8], turned[8];
@@ -186,9 +204,9 @@ void prefetch(const FaceInput& in, const mesh::FaceBlock& b) {
       __builtin_prefetch(&in.cells[c]);
       if constexpr (dual) __builtin_prefetch(&in.d_cells[c]);
       if constexpr (R != Reconstruction::first_order)
-        for (int d = 0; d < 3; ++d) {
-          __builtin_prefetch(&in.gradients[c][d]);
-          if constexpr (dual) __builtin_prefetch(&in.d_gradients[c][d]);
+        for (int half = 0; half < 16; half += 8) {
+          __builtin_prefetch(in.gradients[c].v + half);
+          if constexpr (dual) __builtin_prefetch(in.d_gradients[c].v + half);
         }
     }
 }

@@ -32,13 +32,14 @@ int StepReport::krylov() const {
 }
 
 FlowSolver::FlowSolver(EulerOperator& euler, const FlowOptions& options)
-    : euler_(euler), options_(options), newton_(euler, options.newton) {
+    : euler_(euler), options_(options) {
+  if (options_.scheme->implicit) newton_.emplace(euler, options.newton);
   state_.q = euler.make_vector();
   state_.previous = euler.make_vector();
   stage_ = euler.make_vector();
   known_ = euler.make_vector();
-  work_ = euler.make_vector();
-  for (int j = 0; j < options_.scheme->stages; ++j) rates_.push_back(euler.make_vector());
+  const int kept = options_.scheme->stages - (options_.scheme->implicit ? 1 : 0);
+  for (int j = 0; j < kept; ++j) rates_.push_back(euler.make_vector());
 }
 
 const TimeScheme& FlowSolver::current_scheme() const {
@@ -49,14 +50,21 @@ const TimeScheme& FlowSolver::current_scheme() const {
 }
 
 /// Norm of V (q_n − q_{n−1}) / Δt: how fast the flow changes, what Newton's residual is compared with.
-double FlowSolver::rate_norm() {
+double FlowSolver::rate_norm() const {
   if (state_.last_step == 0) return 0;
-  petsc(VecSet(work_, 0.0));
-  add_times_volume(euler_.mesh(), 1.0 / state_.last_step, state_.q, work_);
-  add_times_volume(euler_.mesh(), -1.0 / state_.last_step, state_.previous, work_);
-  double norm = 0;
-  petsc(VecNorm(work_, NORM_2, &norm));
-  return norm;
+  const double *now = nullptr, *before = nullptr;
+  petsc(VecGetArrayRead(state_.q, &now));
+  petsc(VecGetArrayRead(state_.previous, &before));
+  double sum = 0;
+  for (mesh::Index c = 0; c < euler_.mesh().n_owned; ++c)
+    for (int k = 0; k < kVariables; ++k) {
+      const double change = euler_.mesh().volume[c] * (now[5 * c + k] - before[5 * c + k]);
+      sum += change * change;
+    }
+  petsc(VecRestoreArrayRead(state_.q, &now));
+  petsc(VecRestoreArrayRead(state_.previous, &before));
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, euler_.mesh().comm);
+  return std::sqrt(sum) / state_.last_step;
 }
 
 bool FlowSolver::is_physical(Vec q) const {
@@ -101,14 +109,12 @@ bool FlowSolver::solve_stage(const TimeScheme& scheme, int i, const FrameFunctio
     return false;
   }
   StageEquation equation;
-  equation.mass = 1.0 / dt;
-  equation.rate = scheme.a[i][i];
-  equation.known = known_;
+  equation.combination = {1.0 / dt, scheme.a[i][i], known_};
   equation.frames = frames(state_.time + scheme.c[i] * dt);
   petsc(VecSet(known_, 0.0));
   if (scheme.bdf2) {
     const Bdf2Coefficients h = bdf2_coefficients(dt / state_.last_step);
-    equation.rate = h.a;
+    equation.combination.rate = h.a;
     add_times_volume(euler_.mesh(), -h.h0 / dt, state_.q, known_);
     add_times_volume(euler_.mesh(), -h.h1 / dt, state_.previous, known_);
   } else {
@@ -118,18 +124,18 @@ bool FlowSolver::solve_stage(const TimeScheme& scheme, int i, const FrameFunctio
     if (scheme.a[i][j] != 0) petsc(VecAXPY(known_, scheme.a[i][j], rates_[j]));
   predict(scheme.c[i], dt, stage_);
   const double reference = rate_norm();
-  report.stages.push_back(newton_.solve(equation, stage_, reference));
+  report.stages.push_back(newton_->solve(equation, stage_, reference));
   if (!report.stages.back().converged) report.reason = "Newton: " + report.stages.back().reason;
   return report.stages.back().converged;
 }
 
 StepReport FlowSolver::advance(const FrameFunction& frames, double dt) {
   const TimeScheme& scheme = current_scheme();
-  if (state_.step % options_.jacobian_lag == 0) newton_.rebuild_preconditioner();
+  if (newton_ && state_.step % options_.jacobian_lag == 0) newton_->rebuild_preconditioner();
   StepReport report;
   for (int i = 0; i < scheme.stages; ++i) {
     if (!solve_stage(scheme, i, frames, dt, report)) {
-      newton_.rebuild_preconditioner();
+      if (newton_) newton_->rebuild_preconditioner();
       return report;
     }
     const bool used_later = !scheme.implicit || i + 1 < scheme.stages;

@@ -52,14 +52,14 @@ class FlowSolver {
   void explicit_state(const double* coefficients, int stages, double dt, Vec out);
   void predict(double fraction, double dt, Vec out) const;
   bool is_physical(Vec q) const;
-  double rate_norm();
+  double rate_norm() const;
 
   EulerOperator& euler_;
   FlowOptions options_;
-  NewtonKrylov newton_;
+  std::optional<NewtonKrylov> newton_;  ///< implicit schemes only
   FlowState state_;
-  VecHandle stage_, known_, work_;
-  std::vector<VecHandle> rates_;  ///< R_j
+  VecHandle stage_, known_;
+  std::vector<VecHandle> rates_;  ///< R_j of the stages that later ones need
 };
 
 }  // namespace windhover::fluid

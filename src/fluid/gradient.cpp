@@ -128,7 +128,7 @@ void GreenGauss::apply(const Row* cells, GradientRow* gradients) const {
       const Pack row = Pack::load(node_rows_[cell_node_[k]].v);
       for (int d = 0; d < 3; ++d) g[d] += coefficient_[k][d] * row;
     }
-    for (int d = 0; d < 3; ++d) g[d].store(gradients[c][d].v);
+    gradients[c].store(g);
   }
 }
 
@@ -165,7 +165,7 @@ void LeastSquares::apply(const Row* cells, GradientRow* gradients) const {
       const Pack difference = Pack::load(cells[neighbour_[k]].v) - own;
       for (int d = 0; d < 3; ++d) g[d] += coefficient_[k][d] * difference;
     }
-    for (int d = 0; d < 3; ++d) g[d].store(gradients[c][d].v);
+    gradients[c].store(g);
   }
 }
 

@@ -6,8 +6,12 @@
 namespace windhover::fluid {
 namespace {
 
-/// 2-norm over all cells of the surface area times the far field's pressure: the size of what cancels in R.
-double surface_norm(const mesh::Mesh& mesh, double pressure) {
+/// 2-norms over all cells of the volume, and of the surface area times the far field's pressure: the sizes of what
+/// cancels in a residual.
+struct Sizes {
+  double volume, surface;
+};
+Sizes sizes_of(const mesh::Mesh& mesh, double pressure) {
   std::vector<double> surface(mesh.n_gradient, 0.0);
   const auto add = [&](const std::vector<mesh::FaceBlock>& blocks, int sides) {
     for (const auto& b : blocks)
@@ -17,10 +21,13 @@ double surface_norm(const mesh::Mesh& mesh, double pressure) {
   };
   add(mesh.faces, 2);
   for (const auto& patch : mesh.patches) add(patch.blocks, 1);
-  double sum = 0;
-  for (mesh::Index c = 0; c < mesh.n_owned; ++c) sum += surface[c] * surface[c];
-  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, mesh.comm);
-  return pressure * std::sqrt(sum);
+  double sums[2] = {};
+  for (mesh::Index c = 0; c < mesh.n_owned; ++c) {
+    sums[0] += mesh.volume[c] * mesh.volume[c];
+    sums[1] += surface[c] * surface[c];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, mesh.comm);
+  return {std::sqrt(sums[0]), pressure * std::sqrt(sums[1])};
 }
 
 constexpr double kRoundOff = 3e-15;
@@ -36,15 +43,10 @@ bool keeps_positive(const double* q, const double* change, double fraction, doub
 
 NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options) : euler_(euler), options_(options) {
   const mesh::Mesh& mesh = euler.mesh();
-  volume_ = euler.make_vector();
   residual_ = euler.make_vector();
-  work_ = euler.make_vector();
-  double* v = nullptr;
-  petsc(VecGetArrayWrite(volume_, &v));
-  for (mesh::Index i = 0; i < kVariables * mesh.n_owned; ++i) v[i] = mesh.volume[i / kVariables];
-  petsc(VecRestoreArrayWrite(volume_, &v));
-  petsc(VecNorm(volume_, NORM_2, &volume_norm_));
-  surface_norm_ = surface_norm(mesh, euler.model().far.p);
+  const Sizes sizes = sizes_of(mesh, euler.model().far.p);
+  volume_norm_ = sizes.volume;
+  surface_norm_ = sizes.surface;
 
   petsc(SNESCreate(mesh.comm, snes_.out()));
   petsc(SNESSetOptionsPrefix(snes_, "fluid_"));
@@ -108,16 +110,9 @@ NewtonReport NewtonKrylov::solve(const StageEquation& equation, Vec q, double re
   return report_;
 }
 
-/// f = mass V x + rate R(x) + known
-void NewtonKrylov::evaluate(Vec x, Vec f) {
-  euler_.residual(x, equation_->frames, f);
-  petsc(VecPointwiseMult(work_, volume_, x));
-  petsc(VecAXPBYPCZ(f, equation_->mass, 1.0, equation_->rate, work_, equation_->known));
-}
-
 PetscErrorCode NewtonKrylov::form_function(SNES, Vec x, Vec f, void* context) {
   auto& self = *static_cast<NewtonKrylov*>(context);
-  return self.guard_.run([&] { self.evaluate(x, f); });
+  return self.guard_.run([&] { self.euler_.residual(x, self.equation_->frames, f, self.equation_->combination); });
 }
 
 PetscErrorCode NewtonKrylov::form_jacobian(SNES, Vec x, Mat j, Mat, void* context) {
@@ -125,7 +120,7 @@ PetscErrorCode NewtonKrylov::form_jacobian(SNES, Vec x, Mat j, Mat, void* contex
   return self.guard_.run([&] {
     const StageEquation& e = *self.equation_;
     if (self.jacobian_ && self.rebuild_) {
-      self.euler_.first_order_jacobian(x, e.frames, e.rate, e.mass, *self.jacobian_);
+      self.euler_.first_order_jacobian(x, e.frames, e.combination.rate, e.combination.mass, *self.jacobian_);
       if (self.converted_) {
         Mat reused = self.converted_;
         petsc(MatConvert(self.jacobian_->matrix(), MATAIJ, MAT_REUSE_MATRIX, &reused));
@@ -144,9 +139,7 @@ PetscErrorCode NewtonKrylov::multiply(Mat matrix, Vec x, Vec y) {
   if (code) return code;
   auto& self = *static_cast<NewtonKrylov*>(context);
   return self.guard_.run([&] {
-    self.euler_.derivative(x, y);
-    petsc(VecPointwiseMult(self.work_, self.volume_, x));
-    petsc(VecAXPBY(y, self.equation_->mass, self.equation_->rate, self.work_));
+    self.euler_.derivative(x, y, {self.equation_->combination.mass, self.equation_->combination.rate});
   });
 }
 
@@ -177,7 +170,8 @@ PetscErrorCode NewtonKrylov::test_convergence(SNES snes, PetscInt iteration, Pet
     self.report_.iterations.push_back({norm, static_cast<int>(krylov) - self.krylov_before_, MPI_Wtime() - self.started_});
     self.krylov_before_ = static_cast<int>(krylov);
     if (iteration == 0) {
-      const double floor = kRoundOff * (self.equation_->mass * self.volume_norm_ + self.equation_->rate * self.surface_norm_);
+      const Combination& c = self.equation_->combination;
+      const double floor = kRoundOff * (c.mass * self.volume_norm_ + c.rate * self.surface_norm_);
       self.target_ = std::max(self.options_.tolerance * std::max(norm, self.reference_), floor);
     }
     *reason = SNES_CONVERGED_ITERATING;

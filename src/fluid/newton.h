@@ -23,8 +23,7 @@ struct NewtonOptions {
 
 /// F(q) = mass V q + rate R(q, frames) + known = 0.
 struct StageEquation {
-  double mass = 0, rate = 0;
-  Vec known = nullptr;
+  Combination combination;
   Frames frames;
 };
 
@@ -59,13 +58,11 @@ class NewtonKrylov {
   static PetscErrorCode multiply(Mat, Vec x, Vec y);
   static PetscErrorCode limit_update(SNESLineSearch, Vec x, Vec y, PetscBool* changed, void* self);
   static PetscErrorCode test_convergence(SNES, PetscInt, PetscReal, PetscReal, PetscReal, SNESConvergedReason*, void* self);
-  void evaluate(Vec x, Vec f);
 
   EulerOperator& euler_;
   NewtonOptions options_;
   CallbackGuard guard_;
-  VecHandle volume_;  ///< per unknown
-  VecHandle residual_, work_;
+  VecHandle residual_;
   MatHandle product_;
   std::optional<BlockJacobian> jacobian_;
   MatHandle converted_;  ///< jacobian_ in the preconditioner's own storage, when that is not BAIJ

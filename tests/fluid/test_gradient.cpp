@@ -22,8 +22,8 @@ double largest_error(const mesh::Mesh& mesh, int dimensions) {
   gradient.apply(rows.data(), out.data());
   double worst = 0;
   for (mesh::Index c = 0; c < mesh.n_gradient; ++c)
-    for (int k = 0; k < 8; ++k)
-      for (int d = 0; d < 3; ++d) worst = std::max(worst, std::abs(out[c][d].v[k] - slope[k][d]));
+    for (int k = 0; k < kVariables; ++k)
+      for (int d = 0; d < 3; ++d) worst = std::max(worst, std::abs(out[c].at(d, k) - slope[k][d]));
   return worst;
 }
 
