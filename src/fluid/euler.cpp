@@ -181,13 +181,21 @@ void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination) 
   petsc(VecGetArrayWrite(out, &to));
   petsc(VecGetArrayRead(x, &from));
   if (combination.known) petsc(VecGetArrayRead(combination.known, &known));
-  for (mesh::Index c = 0; c < mesh_.n_owned; ++c) {
-    const double mass = combination.mass * mesh_.volume[c];
-    for (int k = 0; k < kVariables; ++k) {
-      const mesh::Index i = kVariables * c + k;
-      to[i] = mass * from[i] + combination.rate * rates_[c].v[k] + (known ? known[i] : 0.0);
+  const auto combine = [&](mesh::Index c, auto columns) {
+    Pack::Vector sum = combination.rate * Pack::load(rates_[c].v).v;
+    Pack::Vector term = {};
+    std::memcpy(&term, from + kVariables * c, columns * sizeof(double));
+    sum += combination.mass * mesh_.volume[c] * term;
+    if (known) {
+      std::memcpy(&term, known + kVariables * c, columns * sizeof(double));
+      sum += term;
     }
-  }
+    std::memcpy(to + kVariables * c, &sum, columns * sizeof(double));
+  };
+  // whole registers spill over the next cell, which comes after; the last cell must not
+  const mesh::Index safe = std::max<mesh::Index>(0, mesh_.n_owned - 1);
+  for (mesh::Index c = 0; c < safe; ++c) combine(c, std::integral_constant<int, 8>());
+  for (mesh::Index c = safe; c < mesh_.n_owned; ++c) combine(c, std::integral_constant<int, kVariables>());
   if (combination.known) petsc(VecRestoreArrayRead(combination.known, &known));
   petsc(VecRestoreArrayRead(x, &from));
   petsc(VecRestoreArrayWrite(out, &to));

@@ -21,10 +21,9 @@ struct alignas(64) GradientRow {
   double v[16];
 
   double at(int direction, int variable) const { return v[5 * direction + variable]; }
-  void store(const Pack derivatives[3]) {
-    for (int d = 0; d < 3; ++d)
-      for (int k = 0; k < kVariables; ++k) v[5 * d + k] = derivatives[d][k];
-    v[15] = 0;
+  void store(const Pack g[3]) {
+    Pack(__builtin_shufflevector(g[0].v, g[1].v, 0, 1, 2, 3, 4, 8, 9, 10)).store(v);
+    Pack(__builtin_shufflevector(g[1].v, g[2].v, 3, 4, 8, 9, 10, 11, 12, 7)).store(v + 8);
   }
   /// The change of the variables along an arm; what is in the columns after them means nothing.
   Pack along(const double* arm) const {
@@ -146,12 +145,13 @@ template <class T>
 std::array<T, 2> limited_face_rows(const FaceInput& in, const mesh::FaceBlock& b, int i) {
   const int l = b.cell[0][i], r = b.cell[1][i];
   const double *arm_l = b.arm[i][0], *arm_r = b.arm[i][1];
-  const double across[3] = {arm_l[0] - arm_r[0], arm_l[1] - arm_r[1], arm_l[2] - arm_r[2]};  // left to right centroid
   const T own_l = Rows<T>::cell(in, l), own_r = Rows<T>::cell(in, r);
-  const auto fraction = limited_fractions(Rows<T>::slope(in, l, across), Rows<T>::slope(in, r, across), own_r - own_l,
-                                          in.limiter_threshold);
-  return {maximum(own_l + fraction[0] * Rows<T>::slope(in, l, arm_l), least_row(own_l)),
-          maximum(own_r + fraction[1] * Rows<T>::slope(in, r, arm_r), least_row(own_r))};
+  const T change_l = Rows<T>::slope(in, l, arm_l), change_r = Rows<T>::slope(in, r, arm_r);
+  // from the left centroid to the right one: along the own arm to the face, and back along the other's
+  const auto fraction = limited_fractions(change_l - Rows<T>::slope(in, l, arm_r), Rows<T>::slope(in, r, arm_l) - change_r,
+                                          own_r - own_l, in.limiter_threshold);
+  return {maximum(own_l + fraction[0] * change_l, least_row(own_l)),
+          maximum(own_r + fraction[1] * change_r, least_row(own_r))};
 }
 
 template <class T>

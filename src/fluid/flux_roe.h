@@ -6,11 +6,11 @@
 namespace windhover::fluid {
 
 struct Roe {
-  /// |x| rounded off below delta (Harten): differentiable, and no expansion shocks.
+  /// |x| rounded off below delta (Harten): differentiable, and no expansion shocks. `inverse` = 1/delta.
   template <class T>
-  static T rounded(const T& x, const T& delta) {
+  static T rounded(const T& x, const T& delta, const T& inverse) {
     const T a = absolute(x);
-    return select(a < delta, (x * x + delta * delta) / (2.0 * delta), a);
+    return select(a < delta, 0.5 * (x * x * inverse + delta), a);
   }
 
   /// `mach`: scale of the normal-velocity jump, 0..1; 1 is plain Roe.
@@ -27,11 +27,13 @@ struct Roe {
     const T weight = root_r / (root_l + root_r);
     const auto mean = [&weight](const T& a, const T& b) { return a + weight * (b - a); };
     const double g = gamma / (gamma - 1.0);
+    const T inverse_rho = 1.0 / (l.rho * r.rho);  // one division for both sides
     const T u = mean(l.u, r.u), v = mean(l.v, r.v), w = mean(l.w, r.w);
-    const T enthalpy = mean(g * (l.p / l.rho) + 0.5 * speed_squared(l), g * (r.p / r.rho) + 0.5 * speed_squared(r));
+    const T enthalpy = mean(g * (l.p * r.rho * inverse_rho) + 0.5 * speed_squared(l),
+                            g * (r.p * l.rho * inverse_rho) + 0.5 * speed_squared(r));
     const T kinetic = 0.5 * (u * u + v * v + w * w);
-    const T c2 = (gamma - 1.0) * (enthalpy - kinetic);
-    const T c = sqrt(c2);
+    const T c = sqrt((gamma - 1.0) * (enthalpy - kinetic));
+    const T inverse_c = 1.0 / c;
     const T rho = root_l * root_r;
     const T un = u * n.x + v * n.y + w * n.z;
     const T relative = un - n.grid_speed;
@@ -39,11 +41,11 @@ struct Roe {
     // wave strengths
     const T du = r.u - l.u, dv = r.v - l.v, dw = r.w - l.w, dp = r.p - l.p;
     const T dun = du * n.x + dv * n.y + dw * n.z;
-    const T half = 0.5 / c2;
+    const T half = 0.5 * inverse_c * inverse_c;
     const T jump = rho * c * (mach * dun);
-    const T slow = rounded(relative - c, 0.1 * c) * half * (dp - jump);
-    const T fast = rounded(relative + c, 0.1 * c) * half * (dp + jump);
-    const T contact_speed = rounded(relative, 1e-6 * c);
+    const T slow = rounded(relative - c, 0.1 * c, 10.0 * inverse_c) * half * (dp - jump);
+    const T fast = rounded(relative + c, 0.1 * c, 10.0 * inverse_c) * half * (dp + jump);
+    const T contact_speed = rounded(relative, 1e-6 * c, 1e6 * inverse_c);
     const T entropy = contact_speed * (r.rho - l.rho - 2.0 * half * dp);
     const T shear = contact_speed * rho;
 
