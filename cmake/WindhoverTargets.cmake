@@ -1,4 +1,4 @@
-# windhover_library(NAME PUBLIC LIBS...): src/NAME/*.cpp as one static library windhover_NAME.
+# windhover_library(NAME PUBLIC LIBS...): src/NAME/*.cpp and src/NAME/*/*.cpp as one static library windhover_NAME.
 add_library(windhover_flags INTERFACE)
 target_include_directories(windhover_flags INTERFACE ${CMAKE_SOURCE_DIR}/src)
 # -fno-math-errno -fno-trapping-math: lets sqrt and selects vectorise; results stay IEEE exact.
@@ -16,7 +16,8 @@ if(CCACHE)
 endif()
 
 function(windhover_library name)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.cpp
+    ${CMAKE_SOURCE_DIR}/src/${name}/*/*.cpp)
   add_library(windhover_${name} STATIC ${sources})
   target_link_libraries(windhover_${name} ${ARGN})
   target_link_libraries(windhover_${name} PUBLIC windhover_flags)

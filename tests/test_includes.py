@@ -7,6 +7,8 @@ MAY_INCLUDE = {
     "base": set(),
     "mesh": {"base"},
     "fluid": {"base", "mesh"},
+    "body": {"base"},
+    "control": {"base"},
     "io": {"base"},
     "app": {"base", "mesh", "fluid", "io"},
 }
@@ -14,8 +16,8 @@ MAY_INCLUDE = {
 source = pathlib.Path(sys.argv[1]) / "src"
 problems = [f"src/{path.name}: not a folder of docs/architecture.md"
             for path in source.iterdir() if path.is_dir() and path.name not in MAY_INCLUDE]
-for path in sorted(source.glob("*/*.*")):
-    folder = path.parent.name
+for path in sorted(source.glob("*/**/*.*")):
+    folder = path.relative_to(source).parts[0]
     allowed = MAY_INCLUDE.get(folder, set()) | {folder}
     for number, line in enumerate(path.read_text().splitlines(), 1):
         include = re.match(r'\s*#\s*include\s*"([^"]+)"', line)

@@ -92,6 +92,7 @@ class FaceBuilder {
   }
 
   void write_lane(const Face& face, int lane, FaceBlock& block) const {
+    block.side[lane] = static_cast<std::int8_t>(face.side);
     const FaceGeometry g = geometry(face.cell, face.side);
     const Vec3 arm[2] = {g.centroid - mesh_.centroid[face.cell],
                          g.centroid + shift(face) - mesh_.centroid[face.other]};

@@ -1,5 +1,6 @@
 // Faces in blocks of eight: the unit in which fluxes are computed (one vector register wide).
 #pragma once
+#include <cstdint>
 
 namespace windhover::mesh {
 
@@ -14,6 +15,7 @@ struct alignas(64) FaceBlock {
   double arm[kLanes][2][3];    ///< face centroid minus the centroid of cell[side]
   int cell[2][kLanes];         ///< local cells
   int count = 0;
+  std::int8_t side[kLanes];    ///< which face of cell[0] this is (faces_of its type)
 };
 
 }  // namespace windhover::mesh

@@ -1,0 +1,171 @@
+#include "mesh/sliding/sliding_interface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/collective.h"
+#include "mesh/sliding/curve_mesh.h"
+
+namespace windhover::mesh {
+namespace {
+
+/// Contains the patch of Γ: that is never farther from its corners' hull than their distance squared over the radius.
+Box box_of(const RevolutionSurface& surface, const std::array<Vec3, 4>& local, int n) {
+  Box box;
+  for (int k = 0; k < n; ++k) box.extend(local[k]);
+  const double reach = box.diagonal().squaredNorm() / surface.radius();
+  return {box.min().array() - reach, box.max().array() + reach};
+}
+
+std::array<Vec3, 4> local_corners(const RevolutionSurface& surface, const InterfaceFace& face) {
+  std::array<Vec3, 4> local;
+  for (int k = 0; k < face.n; ++k) local[k] = surface.to_local(face.corner[k]);
+  return local;
+}
+
+BoxTree tree_of(const RevolutionSurface& surface, const InterfaceSide& side) {
+  std::vector<Box> boxes;
+  for (const InterfaceFace& face : side.faces) boxes.push_back(box_of(surface, local_corners(surface, face), face.n));
+  return BoxTree(std::move(boxes));
+}
+
+Vec3 rotated(const Vec3& p, double cosine, double sine) {
+  return {cosine * p.x() - sine * p.y(), sine * p.x() + cosine * p.y(), p.z()};
+}
+
+/// The outline of an inner face when its zone has turned.
+Polygon turned(const ChartFace& face, const Chart& chart, double angle) {
+  Polygon polygon;
+  const double cosine = std::cos(angle), sine = chart.mirror() * std::sin(angle);
+  for (const Vec3& p : std::span<const Vec3>(face.outline))
+    polygon.add(face.part == Part::wall ? Vec3(p.x() + angle, p.y(), p.z()) : rotated(p, cosine, sine));
+  return polygon;
+}
+
+double middle_angle(std::span<const Vec3> p) {
+  const auto [least, most] = std::ranges::minmax_element(p, {}, [](const Vec3& a) { return a.x(); });
+  return (least->x() + most->x()) / 2;
+}
+
+/// The part of the turned inner face inside the outer one.
+Polygon intersection(const Chart& chart, Polygon inner, const ChartFace& outer) {
+  if (chart.part == Part::wall) {  // the same turn of the angle for both
+    const double turns = 2 * M_PI * std::round((middle_angle(outer.outline) - middle_angle(inner)) / (2 * M_PI));
+    for (int k = 0; k < inner.n; ++k) inner.v[k].x() += turns;
+  }
+  for (int k = 0; k < outer.n_lines && inner.n > 0; ++k) inner = clip(chart, inner, outer.lines[k]);
+  return inner;
+}
+
+}  // namespace
+
+SlidingInterface::SlidingInterface(const RevolutionSurface& surface, std::array<InterfaceSide, 2> sides, MPI_Comm comm)
+    : surface_(surface), sides_(std::move(sides)), outer_boxes_(tree_of(surface_, sides_[1])), comm_(comm), rank_(rank_of(comm)) {}
+
+std::vector<Piece> SlidingInterface::pieces(double angle) const {
+  constexpr double least = 1e-15;  // of the smaller face: below is round-off of faces that only touch
+  angle = std::remainder(angle, 2 * M_PI);
+  const double cosine = std::cos(angle), sine = std::sin(angle);
+  const auto& [inner, outer] = sides_;
+  std::vector<Piece> pieces;
+  std::vector<int> near;
+  for (std::size_t i = 0; i < inner.faces.size(); ++i) {
+    const InterfaceFace& face = inner.faces[i];
+    const ChartFace& placed = inner.charts[i];
+    const Chart chart{&surface_, placed.part};
+    const Polygon polygon = turned(placed, chart, angle);
+    std::array<Vec3, 4> corners = local_corners(surface_, face);
+    for (int k = 0; k < face.n; ++k) corners[k] = rotated(corners[k], cosine, sine);
+    outer_boxes_.find(box_of(surface_, corners, face.n), near);
+    for (const int j : near) {
+      const InterfaceFace& other = outer.faces[j];
+      if (outer.charts[j].part != placed.part || (face.rank != rank_ && other.rank != rank_)) continue;
+      const Polygon common = intersection(chart, polygon, outer.charts[j]);
+      const PatchIntegrals patch = integrate(chart, common, placed.rim && outer.charts[j].rim);
+      if (!(patch.size > least * std::min(face.size, other.size))) continue;
+      Piece piece;
+      piece.inner = static_cast<int>(i);
+      piece.outer = j;
+      piece.area = surface_.axes() * patch.area;
+      piece.moment = surface_.axes() * patch.moment + surface_.origin().cross(piece.area);
+      piece.centroid = surface_.to_parent(patch.centroid);
+      piece.arm = {surface_.to_parent(rotated(patch.centroid, cosine, -sine)) - face.cell_centroid,
+                   piece.centroid - other.cell_centroid};
+      pieces.push_back(piece);
+    }
+  }
+  return pieces;
+}
+
+double SlidingInterface::audit(double angle, std::span<const Piece> pieces) const {
+  constexpr double allowed = 1e-10;
+  std::array<std::vector<Vec3>, 2> area, moment;
+  for (int side = 0; side < 2; ++side) area[side] = moment[side] = std::vector<Vec3>(faces(side).size(), Vec3::Zero());
+  for (const Piece& piece : pieces)
+    for (int side = 0; side < 2; ++side) {
+      const int f = side == 0 ? piece.inner : piece.outer;
+      area[side][f] += piece.area;
+      moment[side][f] += piece.moment;
+    }
+  double worst = 0;
+  Vec3 place = Vec3::Zero();
+  const Mat3 turn = surface_.axes() * Eigen::AngleAxisd(angle, Vec3::UnitZ()) * surface_.axes().transpose();
+  for (int side = 0; side < 2; ++side)
+    for (std::size_t f = 0; f < faces(side).size(); ++f) {
+      const InterfaceFace& face = faces(side)[f];
+      if (face.rank != rank_) continue;
+      const Vec3& o = surface_.origin();
+      const Mat3 R = side == 0 ? turn : Mat3::Identity();
+      const Vec3 turned_area = R * face.area, turned_moment = R * (face.moment - o.cross(face.area)) + o.cross(turned_area);
+      const double error = std::max((area[side][f] - turned_area).norm() / face.size,
+                                    (moment[side][f] - turned_moment).norm() / (face.size * surface_.reach()));
+      if (error <= worst) continue;
+      worst = error;
+      place = face.centroid;
+    }
+  struct {
+    double error;
+    int rank;
+  } own{worst, rank_}, all{};
+  MPI_Allreduce(&own, &all, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm_);
+  MPI_Bcast(place.data(), 3, MPI_DOUBLE, all.rank, comm_);
+  if (all.error > allowed)
+    throw SolverFailure("sliding interface: at ({:.6g}, {:.6g}, {:.6g}) in lengths of the mesh, the pieces of a face differ "
+                        "from it by {:.3g} of it", place.x(), place.y(), place.z(), all.error);
+  return all.error;
+}
+
+namespace {
+
+/// Each rank knows the cells of its own faces.
+void share_centroids(const Mesh& mesh, InterfaceSide& side) {
+  std::vector<double> centroids(3 * side.faces.size());
+  for (std::size_t f = 0; f < side.faces.size(); ++f)
+    if (side.faces[f].rank == rank_of(mesh.comm)) Vec3::Map(centroids.data() + 3 * f) = mesh.centroid[side.faces[f].cell];
+  MPI_Allreduce(MPI_IN_PLACE, centroids.data(), static_cast<int>(centroids.size()), MPI_DOUBLE, MPI_SUM, mesh.comm);
+  for (std::size_t f = 0; f < side.faces.size(); ++f) side.faces[f].cell_centroid = Vec3::Map(centroids.data() + 3 * f);
+}
+
+}  // namespace
+
+std::vector<SlidingInterface> make_sliding_interfaces(Mesh& mesh, std::span<const SlidingPair> pairs, double scale) {
+  std::vector<RevolutionSurface> surfaces;
+  std::vector<std::array<InterfaceSide, 2>> sides;
+  for (const SlidingPair& pair : pairs) {
+    surfaces.emplace_back(pair.surface);
+    sides.push_back({gather_side(mesh, surfaces.back(), pair.inner_patch, true, scale),
+                     gather_side(mesh, surfaces.back(), pair.outer_patch, false, scale)});
+  }
+  std::vector<CurvedSide> curved;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    for (const InterfaceSide& side : sides[i]) curved.push_back({&surfaces[i], &side});
+  curve_mesh(mesh, curved, scale);
+  std::vector<SlidingInterface> interfaces;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    for (InterfaceSide& side : sides[i]) share_centroids(mesh, side);
+    interfaces.emplace_back(surfaces[i], std::move(sides[i]), mesh.comm);
+  }
+  return interfaces;
+}
+
+}  // namespace windhover::mesh

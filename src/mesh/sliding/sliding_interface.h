@@ -1,0 +1,57 @@
+// Sliding interfaces: the exact pieces in which the faces of a turning zone meet those of its parent.
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "mesh/sliding/box_tree.h"
+#include "mesh/sliding/side.h"
+
+namespace windhover::mesh {
+
+/// Γ, and the two patches of the mesh that cover it, one from inside and one from outside.
+struct SlidingPair {
+  SlidingSurface surface;  ///< in the mesh's lengths; zones are at rest at angle 0 in the mesh
+  int inner_patch = 0, outer_patch = 0;
+};
+
+/// Where one face of the inner zone and one of the parent meet. All but arm[0] in the parent's frame.
+struct Piece {
+  int inner = 0, outer = 0;    ///< faces of the two sides
+  Vec3 area = Vec3::Zero();    ///< ∫ n dA, n from the inner zone to the parent
+  Vec3 moment = Vec3::Zero();  ///< ∫ r × n dA about the parent's origin
+  Vec3 centroid = Vec3::Zero();
+  std::array<Vec3, 2> arm;     ///< centroid minus that of the cell: inner in the inner zone's frame, outer in the parent's
+};
+
+class SlidingInterface {
+ public:
+  /// Sides 0 (inner) and 1 (outer), known to all ranks.
+  SlidingInterface(const RevolutionSurface& surface, std::array<InterfaceSide, 2> sides, MPI_Comm comm);
+
+  const std::vector<InterfaceFace>& faces(int side) const { return sides_[side].faces; }
+  int patch(int side) const { return sides_[side].patch; }
+  int zone(int side) const { return sides_[side].zone; }
+
+  /// The pieces with at least one cell on this rank when the inner zone is turned by the angle about the axis (right-handed,
+  /// radians, relative to the parent), ordered by inner, then outer face. The sum over a face's pieces is the face, and two
+  /// ranks get the same bits for a piece they share. The same normal velocity of the mesh on both sides: n·(axis × r) = 0.
+  std::vector<Piece> pieces(double angle) const;
+
+  /// Collective: the largest |Σ pieces − face| over both sides, in area relative to the face's size, and in moment to size
+  /// times distance. SolverFailure above 1e-10.
+  double audit(double angle, std::span<const Piece> pieces) const;
+
+ private:
+  RevolutionSurface surface_;
+  std::array<InterfaceSide, 2> sides_;
+  BoxTree outer_boxes_;
+  MPI_Comm comm_;
+  int rank_;
+};
+
+/// Collective, once after read_mesh, for all interfaces of the mesh together: finds and checks their faces, and gives the
+/// mesh its exact curved geometry there (see curve_mesh). UserError with a place in lengths divided by `scale`.
+std::vector<SlidingInterface> make_sliding_interfaces(Mesh& mesh, std::span<const SlidingPair> pairs, double scale);
+
+}  // namespace windhover::mesh
