@@ -64,9 +64,69 @@ TEST_CASE("pieces of coarse, of layered and of equally divided cylinders add up"
   check_sums(cylinder_case({{"rim", 18}}));
 }
 
+TEST_CASE("common nodes: a piece for each face at angle 0, slivers at a tiny angle") {
+  const SlidingSurface surface{.radius = 0.6, .z1 = 0.5};
+  const SlidingCase c = make_sliding(make_mesh("cylinder_shared"), surface, "rotor", "ball");
+  check_sums(c);
+  std::size_t own = 0;
+  for (int f = 0; f < static_cast<int>(c.interface().faces(0).size()); ++f)
+    if (c.interface().faces(0)[f].rank == rank_of(c.mesh.comm)) ++own;
+  std::size_t whole = 0, slivers = 0;
+  for (const Piece& piece : c.interface().pieces(0)) {
+    const InterfaceFace &inner = c.interface().faces(0)[piece.inner], &outer = c.interface().faces(1)[piece.outer];
+    CHECK((inner.area - outer.area).norm() < 1e-15);
+    CHECK((inner.area - piece.area).norm() < 1e-15);
+    if (inner.rank == rank_of(c.mesh.comm)) ++whole;
+  }
+  CHECK(whole == own);
+  for (const Piece& piece : c.interface().pieces(1e-9)) {
+    const InterfaceFace& inner = c.interface().faces(0)[piece.inner];
+    if (inner.rank == rank_of(c.mesh.comm) && piece.area.norm() < 1e-8 * inner.size) ++slivers;
+  }
+  CHECK(total(slivers, c.mesh.comm) > 150);
+}
+
 TEST_CASE("pieces of a sphere add up to its faces at any angle") {
   const SlidingCase c = sphere_case();
   check_sums(c);
   check_pieces(c, ball_surface(), 0.7);
   check_sums(sphere_case({{"h_in", 0.5}, {"h_out", 0.5}}));
+}
+
+TEST_CASE("the number of pieces grows with the number of faces") {
+  for (const double refinement : {1.0, 2.0}) {
+    const SlidingCase c = cylinder_case({{"h_in", 0.2 / refinement}, {"h_out", 0.4 / refinement}}, PETSC_COMM_SELF);
+    const std::size_t faces = c.interface().faces(0).size() + c.interface().faces(1).size();
+    CHECK(c.interface().pieces(1).size() < 3 * faces);
+  }
+}
+
+TEST_CASE("any number of ranks gives the same pieces") {
+  for (const bool sphere : {false, true}) {
+    const SlidingCase all = sphere ? sphere_case() : cylinder_case();
+    const SlidingCase alone = sphere ? sphere_case({}, PETSC_COMM_SELF) : cylinder_case({}, PETSC_COMM_SELF);
+    const std::vector<Piece> part = all.interface().pieces(0.3), whole = alone.interface().pieces(0.3);
+    double own = 0;
+    std::size_t next = 0;
+    bool same = true;
+    for (const Piece& p : part) {
+      while (next < whole.size() && (whole[next].inner != p.inner || whole[next].outer != p.outer)) ++next;
+      REQUIRE(next < whole.size());
+      const Piece& q = whole[next];
+      same = same && p.area == q.area && p.moment == q.moment && p.centroid == q.centroid && p.arm == q.arm;
+      const int inner = all.interface().faces(0)[p.inner].rank, outer = all.interface().faces(1)[p.outer].rank;
+      const int rank = rank_of(all.mesh.comm);
+      CHECK((inner == rank || outer == rank));
+      own += (inner == rank ? 0.5 : 0) + (outer == rank ? 0.5 : 0);
+    }
+    CHECK(same);
+    CHECK(total(own, all.mesh.comm) == static_cast<double>(whole.size()));
+  }
+}
+
+TEST_CASE("the audit finds a missing piece") {
+  const SlidingCase c = sphere_case();
+  std::vector<Piece> pieces = c.interface().pieces(0.3);
+  if (rank_of(c.mesh.comm) == 0) pieces.pop_back();
+  CHECK_THROWS_AS(c.interface().audit(0.3, pieces), SolverFailure);
 }

@@ -3,7 +3,7 @@
 // layers of prisms (hexahedra with quads = 1). rim > 0: so many equal arcs around on both sides, which meet when the rotor
 // turns by -1. dr, gap: faults in the rotor's radius and height.
 // The hole in the ball is made of two halves: gmsh would give shapes in the same place the same mesh.
-DefineConstant[h_in = 0.12, h_out = 0.36, layers = 0, quads = 0, rim = 0, dr = 0, gap = 0];
+DefineConstant[h_in = 0.12, h_out = 0.36, h_far = 0.36, layers = 0, quads = 0, rim = 0, dr = 0, gap = 0];
 SetFactory("OpenCASCADE");
 radius = 0.6; height = 0.5;
 x = 0.2; y = -0.1; z = 0.15;
@@ -18,6 +18,7 @@ MeshSize{ PointsOf{ Volume{4}; } } = h_out;
 far[] = Surface In BoundingBox {-2.1, -2.1, -2.1, 2.1, 2.1, 2.1};
 inside[] = Surface In BoundingBox {-1.5, -1.5, -1.5, 1.5, 1.5, 1.5};
 far[] -= inside[];
+MeshSize{ PointsOf{ Surface{far[]}; } } = h_far;
 halves[] = Curve In BoundingBox {-1.5, -1.5, -1.5, 1.5, 1.5, 1.5};
 tall = height - gap;
 If (layers > 0)

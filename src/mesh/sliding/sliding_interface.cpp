@@ -63,7 +63,7 @@ SlidingInterface::SlidingInterface(const RevolutionSurface& surface, std::array<
     : surface_(surface), sides_(std::move(sides)), outer_boxes_(tree_of(surface_, sides_[1])), comm_(comm), rank_(rank_of(comm)) {}
 
 std::vector<Piece> SlidingInterface::pieces(double angle) const {
-  constexpr double least = 1e-15;  // of the smaller face: below is round-off of faces that only touch
+  constexpr double least = 1e-14;  // of the smaller face: below is round-off of faces that only touch
   angle = std::remainder(angle, 2 * M_PI);
   const double cosine = std::cos(angle), sine = std::sin(angle);
   const auto& [inner, outer] = sides_;

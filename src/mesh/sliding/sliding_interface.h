@@ -32,6 +32,7 @@ class SlidingInterface {
   const std::vector<InterfaceFace>& faces(int side) const { return sides_[side].faces; }
   int patch(int side) const { return sides_[side].patch; }
   int zone(int side) const { return sides_[side].zone; }
+  Vec3 axis() const { return surface_.axes().col(2); }  ///< in the parent's frame
 
   /// The pieces with at least one cell on this rank when the inner zone is turned by the angle about the axis (right-handed,
   /// radians, relative to the parent), ordered by inner, then outer face. The sum over a face's pieces is the face, and two
