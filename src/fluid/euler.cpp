@@ -14,14 +14,19 @@ using mesh::Vec3;
 
 namespace {
 
-std::vector<BoundaryKind> resolve_patches(const mesh::Mesh& mesh, const FlowModel& model) {
-  std::vector<BoundaryKind> kinds;
-  for (const auto& patch : mesh.patches) {
+std::vector<std::optional<BoundaryKind>> resolve_patches(const mesh::Mesh& mesh, const FlowModel& model,
+                                                         const SlidingFaces& sliding) {
+  std::vector<std::optional<BoundaryKind>> kinds;
+  for (size_t p = 0; p < mesh.patches.size(); ++p) {
+    const auto& patch = mesh.patches[p];
     const auto found = model.boundary.find(patch.name);
-    if (found == model.boundary.end())
+    const bool slides = sliding.covers(static_cast<int>(p));
+    if (slides && found != model.boundary.end())
+      throw UserError("fluid.boundary: '{}' is a sliding interface and can have no boundary condition", patch.name);
+    if (!slides && found == model.boundary.end())
       throw UserError("fluid.boundary: the mesh's surface '{}' has no boundary condition (wall, symmetry or farfield)",
                       patch.name);
-    kinds.push_back(found->second);
+    kinds.push_back(slides ? std::nullopt : std::optional(found->second));
   }
   for (const auto& [name, kind] : model.boundary)
     if (std::none_of(mesh.patches.begin(), mesh.patches.end(), [&](const auto& p) { return p.name == name; }))
@@ -84,14 +89,20 @@ void store_rows(const Pack columns[8], int count, Row* out) {
 
 }  // namespace
 
-EulerOperator::EulerOperator(const mesh::Mesh& mesh, FlowModel model)
-    : mesh_(mesh), model_(std::move(model)), patch_kind_(resolve_patches(mesh_, model_)) {
+EulerOperator::EulerOperator(const mesh::Mesh& mesh, FlowModel model,
+                             std::vector<mesh::SlidingInterface> interfaces)
+    : mesh_(mesh),
+      model_(std::move(model)),
+      sliding_(mesh_, std::move(interfaces)),
+      patch_kind_(resolve_patches(mesh_, model_, sliding_)) {
+  // with interfaces, the rows of other ranks' cells come after all of the mesh's
+  const mesh::Index n_sides = sliding_.empty() ? mesh_.n_gradient : sliding_.n_cells();
   if (model_.reconstruction != Reconstruction::first_order) {
     if (model_.gradient == GradientKind::green_gauss)
       green_gauss_.emplace(mesh_);
     else
       least_squares_.emplace(mesh_);
-    gradients_.resize(mesh_.n_gradient);
+    gradients_.resize(n_sides);
   }
   zone_cells_.resize(mesh_.zones.size());
   for (mesh::Index c = 0; c < mesh_.n_owned; ++c) {
@@ -99,8 +110,8 @@ EulerOperator::EulerOperator(const mesh::Mesh& mesh, FlowModel model)
     if (zone.size() == 0) zone.begin = c;
     zone.end = c + 1;
   }
-  cells_.resize(mesh_.n_cells);
-  rates_.resize(mesh_.n_gradient);
+  cells_.resize(sliding_.n_cells());
+  rates_.resize(n_sides);
 }
 
 VecHandle EulerOperator::make_vector() const {
@@ -150,11 +161,13 @@ void EulerOperator::exchange(std::vector<Row>& rows) const {
   petsc(PetscSFBcastBegin(mesh_.halo, row, rows.data(), rows.data(), MPI_REPLACE));
   petsc(PetscSFBcastEnd(mesh_.halo, row, rows.data(), rows.data(), MPI_REPLACE));
   MPI_Type_free(&row);
+  sliding_.exchange(rows);
 }
 
 void EulerOperator::update_gradients(const std::vector<Row>& rows, std::vector<GradientRow>& gradients) const {
   if (green_gauss_) green_gauss_->apply(rows.data(), gradients.data());
   if (least_squares_) least_squares_->apply(rows.data(), gradients.data());
+  if (!gradients.empty()) sliding_.exchange(gradients);
 }
 
 FaceInput EulerOperator::face_input(const FrameState& frame) const {
@@ -212,9 +225,12 @@ void EulerOperator::residual(Vec q, const Frames& frames, Vec out, const Combina
   prepare(q, frames);
   std::fill(rates_.begin(), rates_.end(), Row{});
   const int r = static_cast<int>(model_.reconstruction);
+  const auto interior = [&](const FaceInput& in, const mesh::FaceBlock* blocks, int n) {
+    model_.flux->residual[r](in, blocks, n, rates_.data());
+  };
+  for_each_interface(frames, interior);
   for_each_group(
-      frames,
-      [&](const FaceInput& in, const mesh::FaceBlock* blocks, int n) { model_.flux->residual[r](in, blocks, n, rates_.data()); },
+      frames, interior,
       [&](const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int n, int) {
         kBoundaryKernels.residual[r](in, kind, blocks, n, rates_.data());
       });
@@ -234,9 +250,12 @@ void EulerOperator::derivative(Vec dq, Vec out, const Combination& combination) 
   update_gradients(d_cells_, d_gradients_);
   std::fill(rates_.begin(), rates_.end(), Row{});
   const int r = static_cast<int>(model_.reconstruction);
+  const auto interior = [&](const FaceInput& in, const mesh::FaceBlock* blocks, int n) {
+    model_.flux->derivative[r](in, blocks, n, rates_.data());
+  };
+  for_each_interface(frames_, interior);
   for_each_group(
-      frames_,
-      [&](const FaceInput& in, const mesh::FaceBlock* blocks, int n) { model_.flux->derivative[r](in, blocks, n, rates_.data()); },
+      frames_, interior,
       [&](const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int n, int) {
         kBoundaryKernels.derivative[r](in, kind, blocks, n, rates_.data());
       });

@@ -10,6 +10,7 @@
 #include "fluid/block_jacobian.h"
 #include "fluid/boundary_kernels.h"
 #include "fluid/gradient.h"
+#include "fluid/sliding_faces.h"
 #include "mesh/mesh.h"
 #include "mesh/motion.h"
 
@@ -26,11 +27,8 @@ struct FlowModel {
   GradientKind gradient = GradientKind::green_gauss;
   double limiter_epsilon = 0.01;  ///< differences below this (of the reference state) are not limited
   State<double> far{1.0, 0.0, 0.0, 0.0, 1.0 / 1.4};
-  std::map<std::string, BoundaryKind> boundary;  ///< by patch name; every patch of the mesh must be here
+  std::map<std::string, BoundaryKind> boundary;  ///< by patch name; every patch that is no interface must be here
 };
-
-/// Frames of all zones at one time.
-using Frames = std::vector<mesh::FrameState>;
 
 /// What passes through one patch per unit time, summed over ranks, inertial axes.
 struct PatchFlux {
@@ -47,7 +45,8 @@ struct Combination {
 
 class EulerOperator {
  public:
-  EulerOperator(const mesh::Mesh& mesh, FlowModel model);
+  /// `interfaces`: where zones of the mesh slide on each other.
+  EulerOperator(const mesh::Mesh& mesh, FlowModel model, std::vector<mesh::SlidingInterface> interfaces = {});
 
   const mesh::Mesh& mesh() const { return mesh_; }
   const FlowModel& model() const { return model_; }
@@ -88,16 +87,26 @@ class EulerOperator {
     }
     for (size_t p = 0; p < mesh_.patches.size(); ++p) {
       const mesh::Patch& patch = mesh_.patches[p];
-      boundary(face_input(frames[patch.zone]), patch_kind_[p], patch.blocks.data(),
-               static_cast<int>(patch.blocks.size()), static_cast<int>(p));
+      if (patch_kind_[p])
+        boundary(face_input(frames[patch.zone]), *patch_kind_[p], patch.blocks.data(),
+                 static_cast<int>(patch.blocks.size()), static_cast<int>(p));
     }
+  }
+  /// Calls visit(input, blocks, count) for the faces of each sliding interface.
+  template <class Visit>
+  void for_each_interface(const Frames& frames, Visit visit) {
+    if (sliding_.empty()) return;
+    const auto& blocks = sliding_.blocks(frames);
+    for (size_t i = 0; i < blocks.size(); ++i)
+      visit(face_input(frames[sliding_.frame_zone(i)]), blocks[i].data(), static_cast<int>(blocks[i].size()));
   }
   void store_rates(Vec x, Vec out, const Combination& combination) const;
   void prepare(Vec q, const Frames& frames);
 
   const mesh::Mesh& mesh_;
   FlowModel model_;
-  std::vector<BoundaryKind> patch_kind_;
+  SlidingFaces sliding_;
+  std::vector<std::optional<BoundaryKind>> patch_kind_;  ///< none: an interface
   std::vector<mesh::Range> zone_cells_;  ///< owned cells of each zone
   std::optional<GreenGauss> green_gauss_;
   std::optional<LeastSquares> least_squares_;

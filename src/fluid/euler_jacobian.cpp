@@ -28,6 +28,19 @@ void EulerOperator::first_order_jacobian(Vec q, const Frames& frames, double sca
                                          BlockJacobian& jacobian) {
   load_cells(q, frames, nullptr, cells_);
   jacobian.begin();
+  // across an interface only the cells' own blocks: the neighbours change from step to step
+  for_each_interface(frames, [&](const FaceInput& in, const FaceBlock* blocks, int n) {
+    BlockPack sides[2];
+    for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
+      model_.flux->jacobian(in, *b, sides);
+      for (int s = 0; s < 2; ++s) {
+        const LaneBlocks lanes(sides[s]);
+        for (int i = 0; i < b->count; ++i)
+          if (const Index c = b->cell[s][i]; c < mesh_.n_owned)
+            jacobian.add_diagonal(c, lanes.block[i], s == 0 ? scale : -scale);
+      }
+    }
+  });
   for_each_group(
       frames,
       [&](const FaceInput& in, const FaceBlock* blocks, int n) {

@@ -51,7 +51,7 @@ std::vector<State<double>> EulerOperator::patch_states(Vec q, const Frames& fram
   const FaceInput in = face_input(frames[p.zone]);
   std::vector<State<double>> states;
   for (const FaceBlock& b : p.blocks) {
-    const State<Pack> s = kBoundaryKernels.state[r](in, patch_kind_[patch], b);
+    const State<Pack> s = kBoundaryKernels.state[r](in, *patch_kind_[patch], b);
     for (int i = 0; i < b.count; ++i) states.push_back(lane(s, i));
   }
   return states;
@@ -59,7 +59,7 @@ std::vector<State<double>> EulerOperator::patch_states(Vec q, const Frames& fram
 
 double EulerOperator::courant_number(Vec q, const Frames& frames, double dt) {
   load_cells(q, frames, nullptr, cells_);
-  std::vector<double> rate(mesh_.n_gradient, 0.0);  // Σ_faces (|u_n − v_g·n| + c) |A|
+  std::vector<double> rate(rates_.size(), 0.0);  // Σ_faces (|u_n − v_g·n| + c) |A|
   const auto add = [&](const FaceInput& in, const FaceBlock* blocks, int n, int sides) {
     for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
       const FaceGeometry face = face_geometry(in, *b);
@@ -71,8 +71,10 @@ double EulerOperator::courant_number(Vec q, const Frames& frames, double dt) {
       }
     }
   };
+  const auto add_both = [&](const FaceInput& in, const FaceBlock* blocks, int n) { add(in, blocks, n, 2); };
+  for_each_interface(frames, add_both);
   for_each_group(
-      frames, [&](const FaceInput& in, const FaceBlock* blocks, int n) { add(in, blocks, n, 2); },
+      frames, add_both,
       [&](const FaceInput& in, BoundaryKind, const FaceBlock* blocks, int n, int) { add(in, blocks, n, 1); });
   double largest = 0;
   for (mesh::Index c = 0; c < mesh_.n_owned; ++c) largest = std::max(largest, 0.5 * dt * rate[c] / mesh_.volume[c]);

@@ -1,0 +1,104 @@
+#include "fluid/sliding_faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace windhover::fluid {
+
+using mesh::FaceBlock;
+using mesh::Vec3;
+
+SlidingFaces::SlidingFaces(const mesh::Mesh& mesh, std::vector<mesh::SlidingInterface> interfaces)
+    : mesh_(mesh), interfaces_(std::move(interfaces)), n_cells_(mesh.n_cells) {
+  if (!empty()) number_cells();
+}
+
+bool SlidingFaces::covers(int patch) const {
+  return std::any_of(interfaces_.begin(), interfaces_.end(),
+                     [&](const auto& i) { return i.patch(0) == patch || i.patch(1) == patch; });
+}
+
+void SlidingFaces::number_cells() {
+  int rank = 0;
+  MPI_Comm_rank(mesh_.comm, &rank);
+  std::map<std::pair<int, mesh::Index>, int> row_of;  // remote cell → its row here
+  std::vector<PetscSFNode> remote;
+  for (const auto& interface : interfaces_) {
+    bool here = false;
+    for (int side = 0; side < 2; ++side)
+      for (const auto& face : interface.faces(side)) here |= face.rank == rank;
+    auto& rows = face_cell_.emplace_back();
+    for (int side = 0; side < 2; ++side)
+      for (const auto& face : interface.faces(side)) {
+        if (face.rank == rank || !here) {
+          rows[side].push_back(here ? face.cell : -1);
+          continue;
+        }
+        const auto [entry, fresh] = row_of.try_emplace({face.rank, face.cell}, n_cells_);
+        if (fresh) {
+          remote.push_back({face.rank, face.cell});
+          ++n_cells_;
+        }
+        rows[side].push_back(entry->second);
+      }
+  }
+  std::vector<PetscInt> leaves(remote.size());
+  for (size_t i = 0; i < leaves.size(); ++i) leaves[i] = mesh_.n_cells + static_cast<PetscInt>(i);
+  petsc(PetscSFCreate(mesh_.comm, remote_.out()));
+  petsc(PetscSFSetGraph(remote_, mesh_.n_owned, static_cast<PetscInt>(leaves.size()), leaves.data(), PETSC_COPY_VALUES,
+                        remote.data(), PETSC_COPY_VALUES));
+}
+
+void SlidingFaces::broadcast(void* rows, int doubles) const {
+  if (empty()) return;
+  MPI_Datatype row;
+  MPI_Type_contiguous(doubles, MPI_DOUBLE, &row);
+  MPI_Type_commit(&row);
+  petsc(PetscSFBcastBegin(remote_, row, rows, rows, MPI_REPLACE));
+  petsc(PetscSFBcastEnd(remote_, row, rows, rows, MPI_REPLACE));
+  MPI_Type_free(&row);
+}
+
+/// By which angle the inner zone is turned about the interface's axis, relative to the parent.
+double SlidingFaces::angle(const mesh::SlidingInterface& interface, const Frames& frames) const {
+  const mesh::Mat3 turned = frames[interface.zone(1)].R.transpose() * frames[interface.zone(0)].R;
+  const Vec3 axis = interface.axis(), x = axis.unitOrthogonal(), moved = turned * x;
+  return std::atan2(axis.dot(x.cross(moved)), x.dot(moved));
+}
+
+std::vector<FaceBlock> SlidingFaces::make_blocks(size_t i, double angle) const {
+  const std::vector<mesh::Piece> pieces = interfaces_[i].pieces(angle);
+  interfaces_[i].audit(angle, pieces);
+  std::vector<FaceBlock> blocks((pieces.size() + mesh::kLanes - 1) / mesh::kLanes, FaceBlock{});
+  for (size_t k = 0; k < pieces.size(); ++k) {
+    const mesh::Piece& piece = pieces[k];
+    FaceBlock& b = blocks[k / mesh::kLanes];
+    const int lane = b.count++;
+    const int cell[2] = {face_cell_[i][0][piece.inner], face_cell_[i][1][piece.outer]};
+    for (int d = 0; d < 3; ++d) {
+      b.area[d][lane] = piece.area[d];
+      b.moment[d][lane] = piece.moment[d];
+      for (int side = 0; side < 2; ++side) b.arm[lane][side][d] = piece.arm[side][d];
+    }
+    // padding lanes read the first lane's cells
+    for (int side = 0; side < 2; ++side)
+      for (int l = lane; l < mesh::kLanes && (l == lane || lane == 0); ++l) b.cell[side][l] = cell[side];
+  }
+  return blocks;
+}
+
+const std::vector<std::vector<FaceBlock>>& SlidingFaces::blocks(const Frames& frames) {
+  std::vector<double> angles;
+  for (const auto& interface : interfaces_) angles.push_back(angle(interface, frames));
+  for (const Position& p : positions_)
+    if (p.angles == angles) return p.blocks;
+  Position position{angles, {}};
+  for (size_t i = 0; i < interfaces_.size(); ++i) position.blocks.push_back(make_blocks(i, angles[i]));
+  positions_.push_back(std::move(position));
+  constexpr size_t kept = 3;
+  if (positions_.size() > kept) positions_.pop_front();
+  return positions_.back().blocks;
+}
+
+}  // namespace windhover::fluid

@@ -1,0 +1,56 @@
+// The faces between zones that slide on each other: made anew for every angle from the exact pieces of the interfaces.
+#pragma once
+#include <deque>
+#include <vector>
+
+#include "fluid/face_kernel.h"
+#include "mesh/mesh.h"
+#include "mesh/motion.h"
+#include "mesh/sliding/sliding_interface.h"
+
+namespace windhover::fluid {
+
+/// Frames of all zones at one time.
+using Frames = std::vector<mesh::FrameState>;
+
+/// Cells of other ranks at an interface are kept after the mesh's own cells, as rows [mesh.n_cells, n_cells()): every
+/// rank that has cells at an interface keeps all the others there, since they may meet at some angle.
+class SlidingFaces {
+ public:
+  SlidingFaces(const mesh::Mesh& mesh, std::vector<mesh::SlidingInterface> interfaces);
+
+  mesh::Index n_cells() const { return n_cells_; }
+  bool empty() const { return interfaces_.empty(); }
+  size_t size() const { return interfaces_.size(); }
+  /// Whether a patch of the mesh lies on an interface (and so has no boundary condition).
+  bool covers(int patch) const;
+  /// The zone whose frame the blocks of an interface are in.
+  int frame_zone(size_t i) const { return interfaces_[i].zone(1); }
+
+  /// Blocks of each interface at these frames, in the parent's frame, normals from the inner zone (cell[0]) to the parent.
+  /// Collective; SolverFailure when the pieces do not sum to the faces (audit).
+  const std::vector<std::vector<mesh::FaceBlock>>& blocks(const Frames& frames);
+
+  /// Fills the rows of other ranks' cells. Collective.
+  void exchange(std::vector<Row>& rows) const { broadcast(rows.data(), 8); }
+  void exchange(std::vector<GradientRow>& gradients) const { broadcast(gradients.data(), 16); }
+
+ private:
+  struct Position {
+    std::vector<double> angles;
+    std::vector<std::vector<mesh::FaceBlock>> blocks;
+  };
+  void number_cells();
+  void broadcast(void* rows, int doubles) const;
+  double angle(const mesh::SlidingInterface& interface, const Frames& frames) const;
+  std::vector<mesh::FaceBlock> make_blocks(size_t i, double angle) const;
+
+  const mesh::Mesh& mesh_;
+  std::vector<mesh::SlidingInterface> interfaces_;
+  mesh::Index n_cells_;
+  std::vector<std::array<std::vector<int>, 2>> face_cell_;  ///< row of each face's cell; −1 on ranks away from the interface
+  SfHandle remote_;
+  std::deque<Position> positions_;  ///< the latest ones: a step works at its two ends
+};
+
+}  // namespace windhover::fluid
