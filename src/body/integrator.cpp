@@ -1,0 +1,115 @@
+#include "body/integrator.h"
+
+#include <cvode/cvode.h>
+#include <cvode/cvode_proj.h>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include <cmath>
+#include <type_traits>
+#include <vector>
+
+#include "base/errors.h"
+#include "base/petsc.h"
+
+namespace windhover::body {
+namespace {
+
+template <auto Free>
+struct Release {
+  template <class T>
+  void operator()(T* object) const {
+    Free(object);
+  }
+};
+struct ReleaseCvode {
+  void operator()(void* memory) const { CVodeFree(&memory); }
+};
+using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, Release<N_VDestroy>>;
+using Matrix = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, Release<SUNMatDestroy>>;
+using LinearSolver = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, Release<SUNLinSolFree>>;
+using Cvode = std::unique_ptr<void, ReleaseCvode>;
+
+void free_context(SUNContext context) { SUNContext_Free(&context); }
+
+/// What the callbacks share.
+struct Problem {
+  const Ode& ode;
+  std::vector<double> scratch;
+  CallbackGuard guard = {};
+  std::string message = {};
+};
+
+constexpr int kUnrecoverable = -1;
+
+std::span<double> values(N_Vector v) {
+  return {N_VGetArrayPointer(v), static_cast<std::size_t>(NV_LENGTH_S(v))};
+}
+
+int derivative(double t, N_Vector y, N_Vector rate, void* data) {
+  Problem& problem = *static_cast<Problem*>(data);
+  return problem.guard.run([&] { problem.ode.derivative(t, values(y), values(rate)); }) ? kUnrecoverable : 0;
+}
+
+int project(double, N_Vector y, N_Vector correction, double, N_Vector, void* data) {
+  Problem& problem = *static_cast<Problem*>(data);
+  const int failed = problem.guard.run([&] {
+    const std::span<double> old = values(y), change = values(correction);
+    problem.scratch.assign(old.begin(), old.end());
+    problem.ode.project(problem.scratch);
+    for (std::size_t i = 0; i < old.size(); ++i) change[i] = problem.scratch[i] - old[i];
+  });
+  return failed ? kUnrecoverable : 0;
+}
+
+void keep_message(int code, const char*, const char*, char* message, void* data) {
+  if (code < 0) static_cast<Problem*>(data)->message = message;
+}
+
+void check(int flag) {
+  if (flag < 0) throw std::runtime_error(fmt::format("CVODE: error {} in its set-up", flag));
+}
+
+}  // namespace
+
+Integrator::Integrator(const IntegratorOptions& options) : options_(options), context_(nullptr, free_context) {
+  SUNContext context = nullptr;
+  if (SUNContext_Create(nullptr, &context) != 0) throw std::runtime_error("SUNDIALS: no context");
+  context_.reset(context);
+}
+
+void Integrator::advance(const Ode& ode, double t0, double t1, std::span<double> y) const {
+  if (y.empty() || t1 == t0) return;
+  const auto n = static_cast<sunindextype>(y.size());
+  const bool bdf = options_.method == "bdf";
+  Problem problem{ode, {}};
+  const Vector state(N_VNew_Serial(n, context_.get()));
+  std::copy(y.begin(), y.end(), values(state.get()).begin());
+  const Matrix matrix(SUNDenseMatrix(n, n, context_.get()));
+  const LinearSolver solver(SUNLinSol_Dense(state.get(), matrix.get(), context_.get()));
+  const Cvode cvode(CVodeCreate(bdf ? CV_BDF : CV_ADAMS, context_.get()));
+
+  check(CVodeInit(cvode.get(), derivative, t0, state.get()));
+  check(CVodeSetErrHandlerFn(cvode.get(), keep_message, &problem));
+  check(CVodeSetUserData(cvode.get(), &problem));
+  check(CVodeSStolerances(cvode.get(), options_.relative_tolerance, options_.absolute_tolerance));
+  check(CVodeSetMaxNumSteps(cvode.get(), options_.max_steps));
+  check(CVodeSetLinearSolver(cvode.get(), solver.get(), matrix.get()));
+  check(CVodeSetStopTime(cvode.get(), t1));
+  if (bdf && ode.project) {  // CVODE projects with BDF only; with Adams the end of the window has to do
+    check(CVodeSetProjFn(cvode.get(), project));
+    check(CVodeSetProjErrEst(cvode.get(), false));
+  }
+
+  double reached = t0;
+  const int flag = CVode(cvode.get(), t1, state.get(), &reached, CV_NORMAL);
+  problem.guard.rethrow();
+  if (flag < 0)
+    throw SolverFailure("body: CVODE gave up at t = {} s of the window from {} s to {} s: {}", reached, t0, t1,
+                        problem.message);
+  if (ode.project) ode.project(values(state.get()));
+  std::copy_n(values(state.get()).begin(), y.size(), y.begin());
+}
+
+}  // namespace windhover::body

@@ -1,0 +1,36 @@
+// Motors: pure functions of the commanded and the actual rotor speed (rad/s, about the rotor's spin axis).
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+namespace windhover::body {
+
+/// Follows the commanded speed with a first-order lag, whatever the load.
+struct ServoMotor {
+  double time_constant;  ///< s
+
+  double acceleration(double command, double speed) const { return (command - speed) / time_constant; }
+};
+
+/// A direct-current motor without inductance: loads slow it down. The command is the no-load speed that sets its voltage.
+struct TorqueMotor {
+  double torque_constant;   ///< N m/A, which is V s/rad
+  double resistance;        ///< ohm
+  double supply;            ///< V
+  double friction;          ///< N m, constant, against the rotation
+  double viscous_friction;  ///< N m s
+  double governor;          ///< V s: further volts per rad/s of missing speed (0: no speed control)
+
+  /// Torque on the rotor (N m).
+  double torque(double command, double speed) const {
+    constexpr double kSlow = 1;  // rad/s: constant friction fades below, so that a rotor can stand still
+    const double voltage = std::clamp(torque_constant * command + governor * (command - speed), 0.0, supply);
+    const double current = (voltage - torque_constant * speed) / resistance;
+    return torque_constant * current - friction * std::tanh(speed / kSlow) - viscous_friction * speed;
+  }
+};
+
+using Motor = std::variant<ServoMotor, TorqueMotor>;
+
+}  // namespace windhover::body
