@@ -39,6 +39,10 @@ void complete(Case& c) {
   } else if (!mesh.geometry.empty()) {
     mesh.file = mesh_of_geometry(mesh);
   }
+  for (auto& zone : c.zone) {
+    if (zone.inner_surface.empty()) zone.inner_surface = zone.name + "_slide";
+    if (zone.outer_surface.empty()) zone.outer_surface = zone.inner_surface;
+  }
   if (c.body.walls.empty()) {
     for (const auto& [name, condition] : c.fluid.boundary)
       if (condition == "wall") c.body.walls.push_back(name);
@@ -46,14 +50,16 @@ void complete(Case& c) {
   if (c.output.directory.empty()) c.output.directory = "results/" + c.name;
 }
 
-double fastest_rotation_deg_s(const BodyOptions& body) {
+double fastest_rotation_deg_s(const Case& c) {
   double fastest = 0;
-  for (const auto& motion : body.motion)
+  for (const auto& motion : c.body.motion)
     if (motion.kind == "rotation") fastest = std::max(fastest, std::abs(motion.rate_deg_s));
+  for (const auto& zone : c.zone) fastest = std::max(fastest, std::abs(zone.rate_deg_s));
   return fastest;
 }
 
-void validate_time(const TimeOptions& time, const BodyOptions& body, const toml::table& file) {
+void validate_time(const Case& c, const toml::table& file) {
+  const TimeOptions& time = c.time;
   const int step_keys = int(time.step_s.has_value()) + time.step_deg.has_value() + time.step_nondim.has_value();
   if (step_keys != 1)
     throw UserError("{}: time: exactly one of step_s, step_deg, step_nondim is needed, {} are given",
@@ -61,8 +67,8 @@ void validate_time(const TimeOptions& time, const BodyOptions& body, const toml:
   if (time.steps.has_value() == time.end_s.has_value())
     throw UserError("{}: time: exactly one of steps and end_s is needed, {} given", io::place(file, "time"),
                     time.steps ? "both are" : "none is");
-  if (time.step_deg && fastest_rotation_deg_s(body) == 0)
-    throw UserError("{}: time.step_deg = {}: needs a [[body.motion]] with kind = \"rotation\" and rate_deg_s",
+  if (time.step_deg && fastest_rotation_deg_s(c) == 0)
+    throw UserError("{}: time.step_deg = {}: needs a [[zone]] or a [[body.motion]] of kind \"rotation\" with rate_deg_s",
                     io::place(file, "time.step_deg"), *time.step_deg);
 }
 
@@ -89,7 +95,14 @@ void validate(const Case& c, const toml::table& file) {
     validate_direction(c.body.motion[i].direction, fmt::format("body.motion[{}].direction", i), file);
     validate_direction(c.body.motion[i].axis, fmt::format("body.motion[{}].axis", i), file);
   }
-  validate_time(c.time, c.body, file);
+  for (size_t i = 0; i < c.zone.size(); ++i) {
+    const ZoneOptions& zone = c.zone[i];
+    const std::string key = fmt::format("zone[{}]", i);
+    if (zone.name.empty() || zone.parent.empty())
+      throw UserError("{}: {}: name and parent are needed", io::place(file, key), key);
+    validate_direction(zone.axis, key + ".axis", file);
+  }
+  validate_time(c, file);
   constexpr double most_steps = 1e9;
   if (c.time.end_s && *c.time.end_s / step_seconds(c) > most_steps)
     throw UserError("{}: time.end_s = {}: is more than {} steps of {} s", io::place(file, "time.end_s"), *c.time.end_s,
@@ -137,9 +150,16 @@ mesh::Motion body_motion(const Case& c) {
   return motion;
 }
 
+mesh::Rotation zone_rotation(const ZoneOptions& zone) {
+  return {zone.axis.normalized(),
+          zone.point_m,
+          {zone.mean_deg * radians, zone.rate_deg_s * radians, zone.amplitude_deg * radians,
+           2 * std::numbers::pi * zone.frequency_hz, zone.phase_deg * radians}};
+}
+
 double step_seconds(const Case& c) {
   if (c.time.step_s) return *c.time.step_s;
-  if (c.time.step_deg) return *c.time.step_deg / fastest_rotation_deg_s(c.body);
+  if (c.time.step_deg) return *c.time.step_deg / fastest_rotation_deg_s(c);
   return *c.time.step_nondim * c.fluid.length_m / c.fluid.sound_speed_m_s;
 }
 

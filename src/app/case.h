@@ -62,6 +62,16 @@ struct MotionOptions {
   double frequency_hz = 0, phase_deg = 0;
 };
 
+/// A zone that turns inside another; zones without an entry move with the body.
+struct ZoneOptions {
+  std::string name, parent;  ///< physical volumes
+  std::string shape = "cylinder";
+  std::string inner_surface, outer_surface;  ///< after load_case: never empty
+  Vec3 point_m = Vec3::Zero(), axis = Vec3::UnitY();
+  double radius_m = 0, from_m = 0, to_m = 0;
+  double mean_deg = 0, rate_deg_s = 0, amplitude_deg = 0, frequency_hz = 0, phase_deg = 0;
+};
+
 struct BodyOptions {
   std::vector<std::string> walls;  ///< after load_case: every wall when the file names none
   Vec3 moment_point_m = Vec3::Zero();
@@ -103,6 +113,7 @@ struct Case {
   FluidOptions fluid;
   WindOptions wind;
   BodyOptions body;
+  std::vector<ZoneOptions> zone;
   TimeOptions time;
   SolverOptions solver;
   OutputOptions output;
@@ -119,6 +130,9 @@ std::string case_file_documentation();
 
 /// The prescribed motion of the root zone in SI units and radians.
 mesh::Motion body_motion(const Case& c);
+
+/// How a zone turns in its parent, in SI units and radians.
+mesh::Rotation zone_rotation(const ZoneOptions& zone);
 
 /// The length of a step and the end of the run in seconds; steps = end / step, rounded up.
 double step_seconds(const Case& c);

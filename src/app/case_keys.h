@@ -93,6 +93,27 @@ void declare(V& v, BodyOptions& o) {
 }
 
 template <class V>
+void declare(V& v, ZoneOptions& o) {
+  v.key("name", o.name, {.doc = "the zone: a physical volume of the mesh"});
+  v.key("parent", o.parent, {.doc = "the zone around it"});
+  v.key("inner_surface", o.inner_surface, {.doc = "physical surface of the zone where it slides; when missing, its name + \"_slide\""});
+  v.key("outer_surface", o.outer_surface, {.doc = "the parent's physical surface there; when missing, the same name"});
+  v.key("shape", o.shape, {.doc = "surface of revolution between the two", .choices = {"cylinder", "sphere"}});
+  v.key("point_m", o.point_m, {.doc = "a point of the axis, in the parent's frame; a sphere's centre"});
+  v.key("axis", o.axis, {.doc = "axis of the rotation, in the parent's frame; any length"});
+  v.key("radius_m", o.radius_m, {.doc = "radius of the surface", .min = 0});
+  v.when("shape", o.shape, "cylinder", [&] {
+    v.key("from_m", o.from_m, {.doc = "place of one disc along the axis, from the point"});
+    v.key("to_m", o.to_m, {.doc = "place of the other disc, further along"});
+  });
+  v.key("mean_deg", o.mean_deg, {.doc = "angle = mean + rate t + amplitude sin(2π frequency t + phase), right-handed"});
+  v.key("rate_deg_s", o.rate_deg_s, {.doc = "steady part of the angular velocity"});
+  v.key("amplitude_deg", o.amplitude_deg, {.doc = "amplitude of an oscillation"});
+  v.key("frequency_hz", o.frequency_hz, {.doc = "frequency of the oscillation", .min = 0});
+  v.key("phase_deg", o.phase_deg, {.doc = "phase of the oscillation at t = 0"});
+}
+
+template <class V>
 void declare(V& v, TimeOptions& o) {
   v.key("scheme", o.scheme,
         {.doc = "time scheme; ssp_rk3 is explicit",
@@ -142,6 +163,7 @@ void declare(V& v, Case& o) {
   v.section("fluid", o.fluid, "The gas, the boundaries and the discretisation in space.");
   v.section("wind", o.wind, "The air far away.");
   v.section("body", o.body, "The body: its walls and its motion.");
+  v.tables("zone", o.zone, "Zones that turn inside others; the rest of the mesh moves with the body.");
   v.section("time", o.time, "The discretisation in time.");
   v.section("solver", o.solver, "Newton's method and the linear solver of a time step.");
   v.section("output", o.output, "What is written, and where.");

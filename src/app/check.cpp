@@ -1,6 +1,7 @@
 // `windhover check`: everything but the steps.
 #include "app/flow_setup.h"
 #include "app/simulation.h"
+#include "app/zone_tree.h"
 #include <fmt/format.h>
 #include "base/memory.h"
 #include "mesh/quality.h"
@@ -27,10 +28,11 @@ std::string place(const mesh::Worst& worst, double scale) {
 
 int check_simulation(const Case& c) {
   const Scales s(c.fluid);
-  const mesh::Mesh mesh = mesh::read_mesh(c.mesh.file, c.mesh.scale_m / s.length, PETSC_COMM_WORLD);
-  fluid::EulerOperator euler(mesh, flow_model(c));
+  ZonedMesh zoned = read_zones(c, PETSC_COMM_WORLD);
+  const mesh::Mesh& mesh = zoned.mesh;
+  fluid::EulerOperator euler(mesh, flow_model(c), std::move(zoned.interfaces));
   fluid::FlowSolver solver(euler, flow_options(c));
-  const fluid::Frames frames(mesh.zones.size(), mesh::evaluate(scaled_motion(c), 0));
+  const fluid::Frames frames = ZoneTree(c, mesh).frames(0);
   const Vec q = solver.state().q;
   fluid::set_initial(euler, frames, initial_state(c), q);
   const mesh::Quality quality = mesh::measure_quality(mesh);
@@ -48,7 +50,8 @@ int check_simulation(const Case& c) {
   std::string text = fmt::format("case      {}\nmesh      {}: {} cells\n", c.file.string(), c.mesh.file, mesh.n_global);
   for (const auto& zone : mesh.zones) text += fmt::format("zone      {}\n", zone.name);
   for (const auto& patch : mesh.patches)
-    text += fmt::format("surface   {}: {}\n", patch.name, c.fluid.boundary.at(patch.name));
+    text += fmt::format("surface   {}: {}\n", patch.name,
+                        c.fluid.boundary.contains(patch.name) ? c.fluid.boundary.at(patch.name) : "sliding");
   const mesh::Worst &edge = quality.smallest_edge, &angle = quality.smallest_dihedral_deg,
                     &ratio = quality.largest_volume_ratio;
   text += fmt::format("quality   smallest edge {:.4g} m {}\n", s.length * edge.value, place(edge, s.length));

@@ -74,21 +74,24 @@ fluid::InitialState initial_state(const Case& c) {
   return fluid::uniform_state(far);
 }
 
+namespace {
+
+mesh::Signal scaled(mesh::Signal signal, double value, double time) {
+  return {signal.mean / value, signal.rate * time / value, signal.amplitude / value, signal.omega * time, signal.phase};
+}
+
+}  // namespace
+
+mesh::Rotation scaled(mesh::Rotation r, const Scales& s) {
+  return {r.axis, r.point / s.length, scaled(r.angle, 1.0, s.time())};
+}
+
 mesh::Motion scaled_motion(const Case& c) {
   const Scales s(c.fluid);
   mesh::Motion motion = body_motion(c);
-  const auto scale = [&](mesh::Signal& signal, double value) {
-    signal.mean /= value;
-    signal.amplitude /= value;
-    signal.rate *= s.time() / value;
-    signal.omega *= s.time();
-  };
   for (auto& element : motion) {
-    if (auto* t = std::get_if<mesh::Translation>(&element)) scale(t->distance, s.length);
-    if (auto* r = std::get_if<mesh::Rotation>(&element)) {
-      scale(r->angle, 1.0);
-      r->point /= s.length;
-    }
+    if (auto* t = std::get_if<mesh::Translation>(&element)) t->distance = scaled(t->distance, s.length, s.time());
+    if (auto* r = std::get_if<mesh::Rotation>(&element)) *r = scaled(*r, s);
   }
   return motion;
 }

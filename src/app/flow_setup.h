@@ -10,6 +10,9 @@ fluid::FlowModel flow_model(const Case& c);
 fluid::FlowOptions flow_options(const Case& c);
 fluid::InitialState initial_state(const Case& c);
 
+/// A rotation given in SI, nondimensional.
+mesh::Rotation scaled(mesh::Rotation rotation, const Scales& scales);
+
 /// The prescribed motion of the body, nondimensional.
 mesh::Motion scaled_motion(const Case& c);
 

@@ -22,7 +22,7 @@ Attitude attitude(const mesh::Mat3& R) {
           kDegrees * std::atan2(R(2, 0), R(0, 0))};
 }
 
-Loads wall_loads(const Case& c, fluid::FlowSolver& solver, const fluid::Frames& frames) {
+Loads wall_loads(const Case& c, fluid::FlowSolver& solver, const fluid::Frames& frames, const Vec3& point) {
   const Scales scales(c.fluid);
   Loads loads;
   const auto fluxes = solver.euler().patch_fluxes(solver.state().q, frames);
@@ -33,7 +33,6 @@ Loads wall_loads(const Case& c, fluid::FlowSolver& solver, const fluid::Frames& 
     force += fluxes[p].force;
     moment += fluxes[p].moment;
   }
-  const Vec3 point = frames[0].position(c.body.moment_point_m / scales.length);
   return {scales.force() * force, scales.moment() * (moment - point.cross(force))};
 }
 
@@ -43,15 +42,15 @@ History::History(const Case& c, const std::filesystem::path& directory, MPI_Comm
       history_(directory / "history.csv", kHistoryColumns, comm, last_step),
       solver_(directory / "solver.csv", kSolverColumns, comm, last_step) {}
 
-Loads History::append(fluid::FlowSolver& solver, const fluid::Frames& frames, const StepRecord& record) {
+Loads History::append(fluid::FlowSolver& solver, const mesh::FrameState& f, const fluid::Frames& frames,
+                      const StepRecord& record) {
   const Scales s(case_.fluid);
   const fluid::FlowState& state = solver.state();
-  const mesh::FrameState& f = frames[0];
   const Vec3 point = case_.body.moment_point_m / s.length;
   const Vec3 x = s.length * f.position(point), v = s.velocity * f.velocity(point);
   const Vec3 rate = kDegrees / s.time() * (f.R.transpose() * f.omega);
   const Attitude a = attitude(f.R);
-  const Loads loads = wall_loads(case_, solver, frames);
+  const Loads loads = wall_loads(case_, solver, frames, f.position(point));
   const Vec3 &F = loads.force_N, &M = loads.moment_Nm;
   const double step = static_cast<double>(state.step);
   history_.append(std::vector<double>{

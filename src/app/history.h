@@ -13,11 +13,11 @@ struct Attitude {
 };
 Attitude attitude(const mesh::Mat3& R);
 
-/// Force on the named walls and its moment about a point, SI, inertial axes.
+/// Force on the case's walls and its moment about a point (nondimensional, inertial), SI, inertial axes.
 struct Loads {
   Vec3 force_N = Vec3::Zero(), moment_Nm = Vec3::Zero();
 };
-Loads wall_loads(const Case& c, fluid::FlowSolver& solver, const fluid::Frames& frames);
+Loads wall_loads(const Case& c, fluid::FlowSolver& solver, const fluid::Frames& frames, const Vec3& point);
 
 /// What an accepted step adds to the histories besides the state itself.
 struct StepRecord {
@@ -30,7 +30,7 @@ class History {
   History(const Case& c, const std::filesystem::path& directory, MPI_Comm comm, std::optional<std::int64_t> last_step);
 
   /// The row of the current state; returns the loads written.
-  Loads append(fluid::FlowSolver& solver, const fluid::Frames& frames, const StepRecord& record);
+  Loads append(fluid::FlowSolver& solver, const mesh::FrameState& body, const fluid::Frames& frames, const StepRecord& record);
 
  private:
   const Case& case_;

@@ -10,6 +10,7 @@
 #include "app/history.h"
 #include "app/progress.h"
 #include "app/summary.h"
+#include "app/zone_tree.h"
 #include "base/collective.h"
 #include "base/errors.h"
 #include "base/interrupt.h"
@@ -36,10 +37,11 @@ class Simulation {
         directory_(options.out.empty() ? c.output.directory : options.out),
         scales_(c.fluid),
         started_(MPI_Wtime()),
-        mesh_(mesh::read_mesh(c.mesh.file, c.mesh.scale_m / c.fluid.length_m, PETSC_COMM_WORLD)),
-        euler_(mesh_, flow_model(c)),
+        zoned_(read_zones(c, PETSC_COMM_WORLD)),
+        mesh_(zoned_.mesh),
+        euler_(mesh_, flow_model(c), std::move(zoned_.interfaces)),
         solver_(euler_, flow_options(c)),
-        motion_(scaled_motion(c)),
+        zones_(c, mesh_),
         checkpoint_(c, mesh_),
         summary_(c, mesh_),
         nominal_step_(step_seconds(c) / scales_.time()),
@@ -64,9 +66,7 @@ class Simulation {
   }
 
  private:
-  fluid::Frames frames(double time) const {
-    return fluid::Frames(mesh_.zones.size(), mesh::evaluate(motion_, time));
-  }
+  fluid::Frames frames(double time) const { return zones_.frames(time); }
 
   bool finished() const {
     const fluid::FlowState& s = solver_.state();
@@ -87,7 +87,7 @@ class Simulation {
     on_root(mesh_.comm, [this] { io::write_atomically(directory_ / "case.toml", effective_case(case_)); });
     summary_.start(solver_, MPI_Wtime() - started_);
     if (restart) return;
-    history_->append(solver_, frames(0), {});
+    history_->append(solver_, zones_.body(0), frames(0), {});
     write_fields();
   }
 
@@ -108,7 +108,7 @@ class Simulation {
     }
     const double solved = MPI_Wtime();
     saved_ = false;
-    const Loads loads = history_->append(solver_, frames(state.time), {last_report_, solved - begin});
+    const Loads loads = history_->append(solver_, zones_.body(state.time), frames(state.time), {last_report_, solved - begin});
     summary_.step(last_report_, solver_.state(), loads, solved - begin);
     if (case_.output.fields_interval > 0 && state.step % case_.output.fields_interval == 0) write_fields();
     if (state.step % case_.output.checkpoint_interval == 0) write_checkpoint();
@@ -139,10 +139,11 @@ class Simulation {
   fs::path directory_;
   Scales scales_;
   double started_;
-  mesh::Mesh mesh_;
+  ZonedMesh zoned_;
+  const mesh::Mesh& mesh_;
   fluid::EulerOperator euler_;
   fluid::FlowSolver solver_;
-  mesh::Motion motion_;
+  ZoneTree zones_;
   FlowCheckpoint checkpoint_;
   Summary summary_;
   double nominal_step_;

@@ -1,0 +1,89 @@
+#include "app/zone_tree.h"
+
+#include <algorithm>
+#include <set>
+
+#include "app/flow_setup.h"
+#include "base/errors.h"
+#include "base/options.h"
+
+namespace windhover::app {
+namespace {
+
+int find_zone(const mesh::Mesh& mesh, const std::string& name, const std::string& key) {
+  std::vector<std::string> names;
+  for (size_t z = 0; z < mesh.zones.size(); ++z) {
+    if (mesh.zones[z].name == name) return static_cast<int>(z);
+    names.push_back(mesh.zones[z].name);
+  }
+  throw UserError("{}: \"{}\" is not a physical volume of the mesh{}", key, name, suggestion(name, names));
+}
+
+int find_patch(const mesh::Mesh& mesh, const std::string& name, int zone, const std::string& key) {
+  std::vector<std::string> names;
+  for (size_t p = 0; p < mesh.patches.size(); ++p) {
+    if (mesh.patches[p].zone != zone) continue;
+    if (mesh.patches[p].name == name) return static_cast<int>(p);
+    names.push_back(mesh.patches[p].name);
+  }
+  throw UserError("{}: \"{}\" is not a surface of the zone \"{}\"{}", key, name, mesh.zones[zone].name,
+                  suggestion(name, names));
+}
+
+mesh::SlidingSurface surface_of(const ZoneOptions& zone, double length) {
+  return {.shape = zone.shape == "sphere" ? mesh::SlidingSurface::Shape::sphere : mesh::SlidingSurface::Shape::cylinder,
+          .point = zone.point_m / length,
+          .axis = zone.axis,
+          .radius = zone.radius_m / length,
+          .z0 = zone.from_m / length,
+          .z1 = zone.to_m / length};
+}
+
+}  // namespace
+
+ZonedMesh read_zones(const Case& c, MPI_Comm comm) {
+  const double length = c.fluid.length_m, scale = c.mesh.scale_m / length;
+  ZonedMesh z{mesh::read_mesh(c.mesh.file, scale, comm), {}};
+  std::vector<mesh::SlidingPair> pairs;
+  std::set<int> claimed;
+  for (size_t i = 0; i < c.zone.size(); ++i) {
+    const ZoneOptions& zone = c.zone[i];
+    const std::string key = fmt::format("zone[{}]", i);
+    const int inner = find_patch(z.mesh, zone.inner_surface, find_zone(z.mesh, zone.name, key + ".name"), key + ".inner_surface");
+    const int outer = find_patch(z.mesh, zone.outer_surface, find_zone(z.mesh, zone.parent, key + ".parent"), key + ".outer_surface");
+    for (const int patch : {inner, outer})
+      if (!claimed.insert(patch).second)
+        throw UserError("{}: the surface \"{}\" belongs to another zone's interface already", key, z.mesh.patches[patch].name);
+    pairs.push_back({surface_of(zone, length), inner, outer});
+  }
+  z.interfaces = mesh::make_sliding_interfaces(z.mesh, pairs, scale);
+  return z;
+}
+
+ZoneTree::ZoneTree(const Case& c, const mesh::Mesh& mesh) : body_(scaled_motion(c)), n_zones_(mesh.zones.size()) {
+  std::vector<Link> open;
+  std::set<int> turning;
+  for (size_t i = 0; i < c.zone.size(); ++i) {
+    const std::string key = fmt::format("zone[{}]", i);
+    Link link{find_zone(mesh, c.zone[i].name, key + ".name"), find_zone(mesh, c.zone[i].parent, key + ".parent"),
+              {scaled(zone_rotation(c.zone[i]), Scales(c.fluid))}};
+    if (!turning.insert(link.zone).second) throw UserError("{}.name: \"{}\" has an entry already", key, c.zone[i].name);
+    open.push_back(std::move(link));
+  }
+  while (!open.empty()) {
+    const auto ready = std::find_if(open.begin(), open.end(), [&](const Link& l) { return !turning.contains(l.parent); });
+    if (ready == open.end()) throw UserError("zone: \"{}\" turns inside itself", mesh.zones[open.front().zone].name);
+    turning.erase(ready->zone);
+    links_.push_back(std::move(*ready));
+    open.erase(ready);
+  }
+}
+
+fluid::Frames ZoneTree::frames(double time) const {
+  fluid::Frames frames(n_zones_, mesh::evaluate(body_, time));
+  for (const Link& link : links_)
+    frames[link.zone] = mesh::compose(frames[link.parent], mesh::evaluate(link.motion, time));
+  return frames;
+}
+
+}  // namespace windhover::app

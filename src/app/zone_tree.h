@@ -1,0 +1,33 @@
+// The tree of zones of a case: which zone turns in which, and where all are at a time.
+#pragma once
+#include "app/scales.h"
+#include "fluid/euler.h"
+
+namespace windhover::app {
+
+/// The mesh with its sliding interfaces; collective. UserError: a zone or surface that the mesh lacks, two zones claiming
+/// one surface, zones that turn inside each other, and what the interfaces' own checks find.
+struct ZonedMesh {
+  mesh::Mesh mesh;
+  std::vector<mesh::SlidingInterface> interfaces;
+};
+ZonedMesh read_zones(const Case& c, MPI_Comm comm);
+
+/// Frames of all zones, nondimensional in and out.
+class ZoneTree {
+ public:
+  ZoneTree(const Case& c, const mesh::Mesh& mesh);
+  fluid::Frames frames(double time) const;
+  mesh::FrameState body(double time) const { return mesh::evaluate(body_, time); }
+
+ private:
+  struct Link {
+    int zone, parent;
+    mesh::Motion motion;
+  };
+  mesh::Motion body_;  ///< of zones without a parent
+  size_t n_zones_;
+  std::vector<Link> links_;  ///< parents before children
+};
+
+}  // namespace windhover::app
