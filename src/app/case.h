@@ -84,6 +84,7 @@ struct TimeOptions {
   std::optional<int> steps;                             ///< exactly one of steps and end_s
   std::optional<double> end_s;
   int start_steps = 0;
+  double first_step_ratio = 1;
 };
 
 struct SolverOptions {

@@ -123,6 +123,8 @@ void declare(V& v, TimeOptions& o) {
   v.key("step_nondim", o.step_nondim, {.doc = "time step in length_m / sound_speed_m_s", .above = 0});
   v.key("steps", o.steps, {.doc = "number of time steps (exactly one of this and end_s)", .min = 0});
   v.key("end_s", o.end_s, {.doc = "time at which the run ends", .above = 0});
+  v.key("first_step_ratio", o.first_step_ratio,
+        {.doc = "first step over the nominal one, from which steps double: for steady flows with large steps", .above = 0, .max = 1});
   v.key("start_steps", o.start_steps, {.doc = "backward-Euler steps at the start, for impulsive starts", .min = 0});
 }
 

@@ -96,7 +96,8 @@ class Simulation {
     const fluid::FlowState& state = solver_.state();
     const double begin = MPI_Wtime();
     // after a reduced step the next ones grow back; depends on the state alone, so a restart does the same
-    double dt = state.last_step > 0 ? std::min(nominal_step_, 2 * state.last_step) : nominal_step_;
+    double dt = state.last_step > 0 ? std::min(nominal_step_, 2 * state.last_step)
+                                    : case_.time.first_step_ratio * nominal_step_;
     if (dt > 0.999 * nominal_step_) dt = nominal_step_;
     if (end_time_ - state.time < dt * (1 - 1e-9)) dt = end_time_ - state.time;
     for (int halvings = 0;; ++halvings) {
