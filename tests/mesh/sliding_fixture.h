@@ -32,12 +32,17 @@ inline const Vec3 tilted_axis = Vec3(1, 2, 2) / 3;
 
 /// The cylinder of cylinder_in_ball.geo; with layers its axis is along z.
 inline SlidingSurface rotor_surface(const Vec3& axis = tilted_axis) {
-  return {.shape = SlidingSurface::Shape::cylinder, .point = {0.2, -0.1, 0.15}, .axis = axis, .radius = 0.6, .z0 = 0, .z1 = 0.5};
+  return {.shape = SlidingSurface::Shape::cylinder,
+          .point = {0.2, -0.1, 0.15},
+          .axis = axis,
+          .radius = 0.6,
+          .z0 = 0,
+          .z1 = 0.5};
 }
 inline SlidingCase cylinder_case(const std::map<std::string, double>& numbers = {}, MPI_Comm comm = PETSC_COMM_WORLD) {
   const bool upright = numbers.contains("layers");
-  return make_sliding(make_mesh("cylinder_in_ball", numbers, "", comm), rotor_surface(upright ? Vec3::UnitZ() : tilted_axis),
-                      "rotor", "ball", comm);
+  return make_sliding(make_mesh("cylinder_in_ball", numbers, "", comm),
+                      rotor_surface(upright ? Vec3::UnitZ() : tilted_axis), "rotor", "ball", comm);
 }
 
 /// The sphere of sphere_in_box.geo about a slanted axis.

@@ -47,9 +47,9 @@ TEST_CASE("nodes off the surface are told with zone, distance and place in the f
   CHECK(error_of(mesh, surface, "rotor", "ball", 10) == "no error");
   mesh = cylinder_mesh({}, 10);
   surface.radius = 6.1;
-  CHECK_THAT(error_of(mesh, surface, "rotor", "ball", 10),
-             Contains("surface 'slide' of zone 'rotor'") && Contains("not on the cylinder of radius 0.61") &&
-                 Contains("the worst is 0.01 off at ("));
+  CHECK_THAT(error_of(mesh, surface, "rotor", "ball", 10), Contains("surface 'slide' of zone 'rotor'") &&
+                                                               Contains("not on the cylinder of radius 0.61") &&
+                                                               Contains("the worst is 0.01 off at ("));
 }
 
 TEST_CASE("one zone too large or too short") {

@@ -69,8 +69,9 @@ TEST_CASE("cells at a sphere close to round-off and fill it exactly") {
 TEST_CASE("a zone between two interfaces: a child of a child") {
   Mesh mesh = read_mesh(make_mesh("sphere_in_box", {{"child", 1}}), 1, PETSC_COMM_WORLD);
   const SlidingSurface rotor{.point = ball_surface().point, .axis = Vec3::UnitY(), .radius = 0.2, .z1 = 0.1};
-  const std::vector<SlidingPair> pairs{{ball_surface(), find_patch(mesh, "slide", "ball"), find_patch(mesh, "slide", "box")},
-                                       {rotor, find_patch(mesh, "rotor_slide", "rotor"), find_patch(mesh, "rotor_slide", "ball")}};
+  const std::vector<SlidingPair> pairs{
+      {ball_surface(), find_patch(mesh, "slide", "ball"), find_patch(mesh, "slide", "box")},
+      {rotor, find_patch(mesh, "rotor_slide", "rotor"), find_patch(mesh, "rotor_slide", "ball")}};
   const std::vector<SlidingInterface> interfaces = make_sliding_interfaces(mesh, pairs, 1);
   CHECK(opening(mesh).area < 1e-13);
   CHECK(opening(mesh).moment < 1e-13);
@@ -105,7 +106,9 @@ TEST_CASE("arms still point from the cells' centroids to one place") {
   double worst = 0;
   for (const FaceBlock& b : c.mesh.faces)
     for (int lane = 0; lane < b.count; ++lane)
-      worst = std::max(worst, (c.mesh.centroid[b.cell[0][lane]] + arm_of(b, lane, 0) - c.mesh.centroid[b.cell[1][lane]] - arm_of(b, lane, 1)).norm());
+      worst = std::max(worst, (c.mesh.centroid[b.cell[0][lane]] + arm_of(b, lane, 0) -
+                               c.mesh.centroid[b.cell[1][lane]] - arm_of(b, lane, 1))
+                                  .norm());
   CHECK(worst < 1e-15);
 }
 

@@ -13,7 +13,8 @@ namespace {
 
 /// Angles over a whole turn and beyond, tiny ones, and those where seams and equal rims coincide.
 std::vector<double> many_angles() {
-  std::vector<double> angles{0, 1e-9, -1e-9, 1e-13, pi / 2, pi, -pi, 2 * pi, 2 * pi - 1e-9, 2 * pi * 5 / 18, 7.3, -11.9, 1234.5};
+  std::vector<double> angles{0,      1e-9,          -1e-9,           1e-13, pi / 2, pi,    -pi,
+                             2 * pi, 2 * pi - 1e-9, 2 * pi * 5 / 18, 7.3,   -11.9,  1234.5};
   for (int k = 0; k < 12; ++k) angles.push_back(0.01 + k * 2 * pi / 12);
   return angles;
 }
@@ -40,7 +41,8 @@ void check_pieces(const SlidingCase& c, const SlidingSurface& s, double angle) {
     off = std::max(off, surface.place(surface.to_local(piece.centroid)).distance);
     arm = std::max(arm, (turn(s, inner.cell_centroid + piece.arm[0], angle) - piece.centroid).norm());
     arm = std::max(arm, (outer.cell_centroid + piece.arm[1] - piece.centroid).norm());
-    spin = std::max(spin, std::abs(s.axis.normalized().dot(piece.moment - s.point.cross(piece.area))) / piece.area.norm());
+    spin =
+        std::max(spin, std::abs(s.axis.normalized().dot(piece.moment - s.point.cross(piece.area))) / piece.area.norm());
     if (inner.rank == rank_of(c.mesh.comm)) size += piece.area.norm();
   }
   CHECK(off < 1e-14);

@@ -53,10 +53,10 @@ ChartFace chart_face(const Chart& chart, std::span<const Vec3> corners, std::spa
 
 /// Over a part of Γ, in Γ's axes and about its origin, the normal outwards.
 struct PatchIntegrals {
-  double size = 0;                ///< ∫ dA
-  Vec3 area = Vec3::Zero();       ///< ∫ n dA
-  Vec3 moment = Vec3::Zero();     ///< ∫ r × n dA
-  Vec3 centroid = Vec3::Zero();   ///< moved onto Γ
+  double size = 0;               ///< ∫ dA
+  Vec3 area = Vec3::Zero();      ///< ∫ n dA
+  Vec3 moment = Vec3::Zero();    ///< ∫ r × n dA
+  Vec3 centroid = Vec3::Zero();  ///< moved onto Γ
 };
 
 /// rim: only what lies inside the rim counts.

@@ -56,9 +56,7 @@ class Skin {
       const RevolutionSurface& surface = *owner->surface;
       return sign() / 3 * (surface.radius() * face().size - (o - surface.origin()).dot(face().area));
     }
-    Vec3 first(const Vec3& o) const {
-      return sign() * patch_first({owner->surface, chart().part}, chart().outline, o);
-    }
+    Vec3 first(const Vec3& o) const { return sign() * patch_first({owner->surface, chart().part}, chart().outline, o); }
   };
   /// The face with these nodes; null: not on a surface.
   const Face* find_face(const Nodes& nodes) const {
@@ -176,9 +174,10 @@ class MeshCurver {
       }
     }
     if (!(volume > 0))
-      throw UserError("the mesh is too coarse at a sliding interface: with its curved edges, a cell of zone '{}' at "
-                      "({:.6g}, {:.6g}, {:.6g}) is turned inside out",
-                      mesh_.zones[mesh_.cell_zone[c]].name, o.x() / scale, o.y() / scale, o.z() / scale);
+      throw UserError(
+          "the mesh is too coarse at a sliding interface: with its curved edges, a cell of zone '{}' at "
+          "({:.6g}, {:.6g}, {:.6g}) is turned inside out",
+          mesh_.zones[mesh_.cell_zone[c]].name, o.x() / scale, o.y() / scale, o.z() / scale);
     mesh_.volume[c] = volume;
     mesh_.centroid[c] = o + first / volume;
   }

@@ -39,7 +39,8 @@ void visit_curve(const RevolutionSurface& surface, const Vec3& from, const Vec3&
     const Vec3 f = normal.cross(e).normalized();
     for (int i = 0; i < Gauss::n; ++i) {
       const double c = std::cos(angle * gauss.t[i]), s = std::sin(angle * gauss.t[i]);
-      visit(gauss.w[i], surface.to_parent(radius * (c * e + s * f)), surface.axes() * (radius * angle * (c * f - s * e)));
+      visit(gauss.w[i], surface.to_parent(radius * (c * e + s * f)),
+            surface.axes() * (radius * angle * (c * f - s * e)));
     }
     return;
   }
@@ -94,7 +95,8 @@ Vec3 patch_first(const Chart& chart, std::span<const Vec3> outline, const Vec3& 
   Vec3 first = Vec3::Zero();
   const auto add = [&](double weight, const Vec3& edge_point, const Vec3& slope) {
     const Vec3 g = edge_point - apex;
-    const double density = weight * apex.dot(g.cross(slope));  // of the chart's area, or of the flat facet's solid angle
+    const double density =
+        weight * apex.dot(g.cross(slope));  // of the chart's area, or of the flat facet's solid angle
     for (int i = 0; i < Gauss::n; ++i) {
       const Vec3 p = apex + gauss.t[i] * g;
       const double s = gauss.w[i] * gauss.t[i] * density;

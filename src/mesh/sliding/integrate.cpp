@@ -57,7 +57,7 @@ class PlaneSum {
 
   double area() const { return area_; }
   Vec2 first() const { return first_ + area_ * origin_; }
-  Vec2 centroid(double least) const { return area_ > least ? Vec2(origin_ + first_ / area_) : origin_; }
+  Vec2 centroid() const { return area_ > 0 ? Vec2(origin_ + first_ / area_) : origin_; }
 
  private:
   Vec2 origin_;
@@ -80,7 +80,7 @@ PatchIntegrals disc_integrals(const Chart& chart, std::span<const Vec3> polygon,
   const PlaneSum sum = plane_sum(polygon, chart.surface->radius(), rim);
   const double normal = chart.mirror();
   const Vec2 first = sum.first();
-  const Vec2 centroid = sum.centroid(0);
+  const Vec2 centroid = sum.centroid();
   return {.size = sum.area(),
           .area = {0, 0, normal * sum.area()},
           .moment = {first.y(), -normal * first.x(), 0},  // y is mirrored at the bottom
@@ -118,7 +118,7 @@ PatchIntegrals wall_integrals(const Chart& chart, std::span<const Vec3> polygon)
   area *= radius;
   moment = radius * moment + z_ref * Vec2(-area.y(), area.x());
   const PlaneSum plane = plane_sum(polygon, radius, false);
-  const Vec2 centroid = plane.centroid(0);
+  const Vec2 centroid = plane.centroid();
   return {.size = radius * plane.area(),
           .area = {area.x(), area.y(), 0},
           .moment = {moment.x(), moment.y(), 0},

@@ -47,6 +47,16 @@ std::vector<RawFace> gather(const std::vector<RawFace>& own, MPI_Comm comm) {
   return all;
 }
 
+const char* name_of(Part part) {
+  switch (part) {
+    case Part::wall: return "wall";
+    case Part::bottom: return "lower disc";
+    case Part::top: return "upper disc";
+    case Part::sphere: return "sphere";
+  }
+  return "";
+}
+
 class SideBuilder {
  public:
   SideBuilder(const Mesh& mesh, const RevolutionSurface& surface, int patch, bool inner, double scale)
@@ -71,8 +81,8 @@ class SideBuilder {
   template <class... Args>
   [[noreturn]] void fail(const Vec3& place, fmt::format_string<Args...> format, Args&&... args) const {
     const Vec3 p = place / scale_;
-    throw UserError("sliding interface, surface '{}' of zone '{}': {} at ({:.6g}, {:.6g}, {:.6g})", patch_name_, zone_name_,
-                    fmt::format(format, std::forward<Args>(args)...), p.x(), p.y(), p.z());
+    throw UserError("sliding interface, surface '{}' of zone '{}': {} at ({:.6g}, {:.6g}, {:.6g})", patch_name_,
+                    zone_name_, fmt::format(format, std::forward<Args>(args)...), p.x(), p.y(), p.z());
   }
   Vec3 middle(int f) const {
     const InterfaceFace& face = side_.faces[f];
@@ -106,8 +116,8 @@ class SideBuilder {
       if (places_.back().distance > places_[worst].distance) worst = places_.size() - 1;
     }
     if (n_off > 0)
-      fail(side_.node_in_file[worst], "{} of {} nodes are not on the {} of radius {:.6g}; the worst is {:.3g} off", n_off,
-           places_.size(), surface_.is_sphere() ? "sphere" : "cylinder", surface_.radius() / scale_,
+      fail(side_.node_in_file[worst], "{} of {} nodes are not on the {} of radius {:.6g}; the worst is {:.3g} off",
+           n_off, places_.size(), surface_.is_sphere() ? "sphere" : "cylinder", surface_.radius() / scale_,
            places_[worst].distance / scale_);
   }
 
@@ -130,7 +140,8 @@ class SideBuilder {
         if (parts_[f] == Part::wall) wall_edges_.emplace(a, b);
       });
     for (const auto& [a, b] : edges)
-      if (!edges.contains({b, a})) fail(side_.node_in_file[a], "the surface has a gap: an edge belongs to one face only");
+      if (!edges.contains({b, a}))
+        fail(side_.node_in_file[a], "the surface has a gap: an edge belongs to one face only");
   }
   template <class Visit>
   void for_each_edge(std::size_t f, Visit&& visit) const {
@@ -151,7 +162,8 @@ class SideBuilder {
     int edge = 0;
     for_each_edge(f, [&](int a, int b) { arc[edge++] = parts_[f] != Part::wall && wall_edges_.contains({b, a}); });
     check_span(f, local);
-    const ChartFace& placed = side_.charts.emplace_back(chart_face(chart, std::span(local).first(face.n), std::span(arc).first(face.n)));
+    const ChartFace& placed =
+        side_.charts.emplace_back(chart_face(chart, std::span(local).first(face.n), std::span(arc).first(face.n)));
     check_convex(f, placed);
     const PatchIntegrals integrals = integrate(chart, placed.outline, placed.rim);
     face.size = integrals.size;
@@ -168,8 +180,10 @@ class SideBuilder {
     const int height = surface_.is_sphere() ? 3 : 2;
     for (int i = 0; i < side_.faces[f].n; ++i)
       for (int j = 0; j < i; ++j) {
-        const double cosine = local[i].head(height).dot(local[j].head(height)) / (surface_.radius() * surface_.radius());
-        if (cosine < std::cos(largest)) fail(middle(f), "the mesh is too coarse: a face spans more than {} rad", largest);
+        const double cosine =
+            local[i].head(height).dot(local[j].head(height)) / (surface_.radius() * surface_.radius());
+        if (cosine < std::cos(largest))
+          fail(middle(f), "the mesh is too coarse: a face spans more than {} rad", largest);
       }
   }
 
@@ -190,7 +204,7 @@ class SideBuilder {
       if (std::abs(area - exact) > 1e-10 * exact)
         fail(surface_.origin(), "gap or overlap: the faces cover {:.12g} of the area {:.12g} of the {}",
              area / (scale_ * scale_), exact / (scale_ * scale_),
-             part == wall ? "wall" : part == sphere ? "sphere" : part == top ? "upper disc" : "lower disc");
+             name_of(part));
     }
   }
 

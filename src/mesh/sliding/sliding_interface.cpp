@@ -60,7 +60,11 @@ Polygon intersection(const Chart& chart, Polygon inner, const ChartFace& outer) 
 }  // namespace
 
 SlidingInterface::SlidingInterface(const RevolutionSurface& surface, std::array<InterfaceSide, 2> sides, MPI_Comm comm)
-    : surface_(surface), sides_(std::move(sides)), outer_boxes_(tree_of(surface_, sides_[1])), comm_(comm), rank_(rank_of(comm)) {}
+    : surface_(surface),
+      sides_(std::move(sides)),
+      outer_boxes_(tree_of(surface_, sides_[1])),
+      comm_(comm),
+      rank_(rank_of(comm)) {}
 
 std::vector<Piece> SlidingInterface::pieces(double angle) const {
   constexpr double least = 1e-14;  // of the smaller face: below is round-off of faces that only touch
@@ -116,7 +120,8 @@ double SlidingInterface::audit(double angle, std::span<const Piece> pieces) cons
       if (face.rank != rank_) continue;
       const Vec3& o = surface_.origin();
       const Mat3 R = side == 0 ? turn : Mat3::Identity();
-      const Vec3 turned_area = R * face.area, turned_moment = R * (face.moment - o.cross(face.area)) + o.cross(turned_area);
+      const Vec3 turned_area = R * face.area,
+                 turned_moment = R * (face.moment - o.cross(face.area)) + o.cross(turned_area);
       const double error = std::max((area[side][f] - turned_area).norm() / face.size,
                                     (moment[side][f] - turned_moment).norm() / (face.size * surface_.reach()));
       if (error <= worst) continue;
@@ -130,8 +135,10 @@ double SlidingInterface::audit(double angle, std::span<const Piece> pieces) cons
   MPI_Allreduce(&own, &all, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm_);
   MPI_Bcast(place.data(), 3, MPI_DOUBLE, all.rank, comm_);
   if (all.error > allowed)
-    throw SolverFailure("sliding interface: at ({:.6g}, {:.6g}, {:.6g}) in lengths of the mesh, the pieces of a face differ "
-                        "from it by {:.3g} of it", place.x(), place.y(), place.z(), all.error);
+    throw SolverFailure(
+        "sliding interface: at ({:.6g}, {:.6g}, {:.6g}) in lengths of the mesh, the pieces of a face differ "
+        "from it by {:.3g} of it",
+        place.x(), place.y(), place.z(), all.error);
   return all.error;
 }
 
@@ -141,7 +148,8 @@ namespace {
 void share_centroids(const Mesh& mesh, InterfaceSide& side) {
   std::vector<double> centroids(3 * side.faces.size());
   for (std::size_t f = 0; f < side.faces.size(); ++f)
-    if (side.faces[f].rank == rank_of(mesh.comm)) Vec3::Map(centroids.data() + 3 * f) = mesh.centroid[side.faces[f].cell];
+    if (side.faces[f].rank == rank_of(mesh.comm))
+      Vec3::Map(centroids.data() + 3 * f) = mesh.centroid[side.faces[f].cell];
   MPI_Allreduce(MPI_IN_PLACE, centroids.data(), static_cast<int>(centroids.size()), MPI_DOUBLE, MPI_SUM, mesh.comm);
   for (std::size_t f = 0; f < side.faces.size(); ++f) side.faces[f].cell_centroid = Vec3::Map(centroids.data() + 3 * f);
 }

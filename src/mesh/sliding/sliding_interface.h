@@ -21,7 +21,7 @@ struct Piece {
   Vec3 area = Vec3::Zero();    ///< ∫ n dA, n from the inner zone to the parent
   Vec3 moment = Vec3::Zero();  ///< ∫ r × n dA about the parent's origin
   Vec3 centroid = Vec3::Zero();
-  std::array<Vec3, 2> arm;     ///< centroid minus that of the cell: inner in the inner zone's frame, outer in the parent's
+  std::array<Vec3, 2> arm;  ///< centroid minus that of the cell: inner in the inner zone's frame, outer in the parent's
 };
 
 class SlidingInterface {

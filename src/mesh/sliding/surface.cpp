@@ -16,7 +16,8 @@ RevolutionSurface::RevolutionSurface(const SlidingSurface& description)
       z1_(description.z1) {
   if (!(radius_ > 0)) throw UserError("sliding interface: radius {} is not above 0", radius_);
   if (!(description.axis.norm() > 0)) throw UserError("sliding interface: the axis has no direction");
-  if (!is_sphere_ && !(z1_ > z0_)) throw UserError("sliding interface: the cylinder ends at {}, before its begin {}", z1_, z0_);
+  if (!is_sphere_ && !(z1_ > z0_))
+    throw UserError("sliding interface: the cylinder ends at {}, before its begin {}", z1_, z0_);
   axes_.col(2) = description.axis.normalized();
   axes_.col(0) = axes_.col(2).unitOrthogonal();
   axes_.col(1) = axes_.col(2).cross(axes_.col(0));
@@ -41,10 +42,12 @@ double RevolutionSurface::reach() const {
 Place RevolutionSurface::place(const Vec3& local) const {
   if (is_sphere_) {
     const double r = local.norm();
-    return {r > 0 ? Vec3(local * (radius_ / r)) : Vec3(radius_ * Vec3::UnitZ()), bit(Part::sphere), std::abs(r - radius_)};
+    return {r > 0 ? Vec3(local * (radius_ / r)) : Vec3(radius_ * Vec3::UnitZ()), bit(Part::sphere),
+            std::abs(r - radius_)};
   }
   const double rho = std::hypot(local.x(), local.y());
-  const double to_wall = std::abs(rho - radius_), to_bottom = std::abs(local.z() - z0_), to_top = std::abs(local.z() - z1_);
+  const double to_wall = std::abs(rho - radius_), to_bottom = std::abs(local.z() - z0_),
+               to_top = std::abs(local.z() - z1_);
   const auto beyond = [](double x) { return std::max(x, 0.0); };
   const double wall = std::hypot(to_wall, beyond(z0_ - local.z()) + beyond(local.z() - z1_));
   const double disc = std::hypot(std::min(to_bottom, to_top), beyond(rho - radius_));
