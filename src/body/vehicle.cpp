@@ -17,11 +17,14 @@ Mat3 inertia_tensor(const VehicleOptions& o, const std::string& prefix) {
   inertia(1, 2) = inertia(2, 1) = -products[2];
   const Vec3 principal = Eigen::SelfAdjointEigenSolver<Mat3>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
   if (!(principal[0] > 1e-12 * principal[2]))
-    throw UserError("{0}inertia_kg_m2: the tensor with {0}inertia_products_kg_m2 is singular or negative "
-                    "(principal moments {1}, {2}, {3})", prefix, principal[0], principal[1], principal[2]);
+    throw UserError(
+        "{0}inertia_kg_m2: the tensor with {0}inertia_products_kg_m2 is singular or negative "
+        "(principal moments {1}, {2}, {3})",
+        prefix, principal[0], principal[1], principal[2]);
   if (principal[2] > (principal[0] + principal[1]) * (1 + 1e-9))
-    throw UserError("{}inertia_kg_m2: no body has principal moments {}, {}, {}: the largest exceeds the sum of the others",
-                    prefix, principal[0], principal[1], principal[2]);
+    throw UserError(
+        "{}inertia_kg_m2: no body has principal moments {}, {}, {}: the largest exceeds the sum of the others", prefix,
+        principal[0], principal[1], principal[2]);
   return inertia;
 }
 
@@ -39,7 +42,7 @@ Motor build_motor(const MotorOptions& o, const std::string& prefix) {
   require_positive(o.resistance_ohm, prefix + "resistance_ohm");
   require_positive(o.supply_V, prefix + "supply_V");
   return TorqueMotor{o.torque_constant_Nm_A, o.resistance_ohm, o.supply_V,
-                     o.friction_Nm, o.friction_Nm_s, o.governor_V_s};
+                     o.friction_Nm,          o.friction_Nm_s,  o.governor_V_s};
 }
 
 std::vector<Rotor> build_rotors(const VehicleOptions& o, const Mat3& inertia, const std::string& prefix) {
@@ -67,7 +70,8 @@ Freedom build_freedom(const FreedomOptions& o, double initial, double initial_ra
   const bool spring_given = o.stiffness != 0 || o.damping != 0 || o.preload != 0 || o.rest != 0;
   const bool motion_given = o.mean != 0 || o.rate != 0 || o.amplitude != 0;
   if (o.kind != "spring" && spring_given)
-    throw UserError("{}: stiffness, damping, preload or rest given, but the axis is {}; use kind = \"spring\"", key, o.kind);
+    throw UserError("{}: stiffness, damping, preload or rest given, but the axis is {}; use kind = \"spring\"", key,
+                    o.kind);
   if (o.kind != "prescribed" && motion_given)
     throw UserError("{}: a motion is given, but the axis is {}; use kind = \"prescribed\"", key, o.kind);
   if (o.kind == "spring" && (o.stiffness < 0 || o.damping < 0 || (o.stiffness == 0 && o.damping == 0)))
@@ -76,8 +80,13 @@ Freedom build_freedom(const FreedomOptions& o, double initial, double initial_ra
     throw UserError("{}: locked, but its initial velocity is {}", key, initial_rate);
   if (o.kind == "prescribed" && (initial != 0 || initial_rate != 0))
     throw UserError("{}: prescribed, but an initial value is given as well", key);
-  Freedom freedom{.motion = {}, .stiffness = o.stiffness, .damping = o.damping, .preload = o.preload, .rest = o.rest,
-                  .initial = initial, .initial_rate = initial_rate};
+  Freedom freedom{.motion = {},
+                  .stiffness = o.stiffness,
+                  .damping = o.damping,
+                  .preload = o.preload,
+                  .rest = o.rest,
+                  .initial = initial,
+                  .initial_rate = initial_rate};
   if (o.kind == "locked") freedom.motion = Signal{.mean = initial};
   if (o.kind == "prescribed")
     freedom.motion = Signal{o.mean, o.rate, o.amplitude, 2 * std::numbers::pi * o.frequency_hz, o.phase_rad};
@@ -110,7 +119,8 @@ Mount build_mount(const VehicleOptions& o, const std::string& prefix) {
 Vehicle build_vehicle(const VehicleOptions& o, const std::string& prefix) {
   require_positive(o.mass_kg, prefix + "mass_kg");
   const Mat3 inertia = inertia_tensor(o, prefix);
-  return {o.mass_kg, inertia, o.gravity_m_s2, o.mount.point_m, build_mount(o, prefix), build_rotors(o, inertia, prefix)};
+  return {
+      o.mass_kg, inertia, o.gravity_m_s2, o.mount.point_m, build_mount(o, prefix), build_rotors(o, inertia, prefix)};
 }
 
 }  // namespace windhover::body

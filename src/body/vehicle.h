@@ -11,8 +11,8 @@ namespace windhover::body {
 
 struct Rotor {
   std::string name;
-  double inertia;      ///< about the spin axis
-  Vec3 spin_axis_B;    ///< unit vector, right-handed
+  double inertia;       ///< about the spin axis
+  Vec3 spin_axis_B;     ///< unit vector, right-handed
   double speed, angle;  ///< at t = 0
   Motor motor;
 };

@@ -89,7 +89,8 @@ void declare(V& v, VehicleOptions& o) {
         {.doc = "moments of inertia about the body axes, with the rotors standing still"});
   v.key("inertia_products_kg_m2", o.inertia_products_kg_m2, {.doc = "products of inertia ∫xy dm, ∫xz dm, ∫yz dm"});
   v.key("gravity_m_s2", o.gravity_m_s2, {.doc = "gravity in inertial axes"});
-  v.key("position_m", o.position_m, {.doc = "position at t = 0 of the mount's point (by default the centre of gravity)"});
+  v.key("position_m", o.position_m,
+        {.doc = "position at t = 0 of the mount's point (by default the centre of gravity)"});
   v.key("velocity_m_s", o.velocity_m_s, {.doc = "velocity of that point at t = 0, inertial axes"});
   v.key("rotation_rad", o.rotation_rad,
         {.doc = "attitude at t = 0: right-handed rotations about x (last), y (first), z (second)"});

@@ -7,9 +7,7 @@ namespace {
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-Mat3 cross_matrix(const Vec3& a) {
-  return (Mat3() << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0).finished();
-}
+Mat3 cross_matrix(const Vec3& a) { return (Mat3() << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0).finished(); }
 
 /// What the rotors add to the equations of the body.
 struct RotorSums {

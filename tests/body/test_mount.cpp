@@ -42,7 +42,8 @@ TEST_CASE("springs on a body whose rotations are all free: small motion about ea
   VehicleOptions o = brick();
   const int axis = GENERATE(0, 1, 2);
   RotationOptions* rotations[] = {&o.mount.rotation_x, &o.mount.rotation_y, &o.mount.rotation_z};
-  for (RotationOptions* rotation : rotations) rotation->kind = "spring", rotation->stiffness = 2, rotation->damping = 0.01;
+  for (RotationOptions* rotation : rotations)
+    rotation->kind = "spring", rotation->stiffness = 2, rotation->damping = 0.01;
   o.rotation_rad[axis] = 0.3;  // about one axis alone the motion is exactly linear
   const VehicleOde ode(build_vehicle(o));
   std::vector<double> y = ode.initial_state();

@@ -106,7 +106,9 @@ TEST_CASE("a spinning rotor carries a body that does not spin") {
   top.o.rotor.push_back(rotor("wheel", Vec3::UnitX(), inertia, "servo"));
   top.o.rotor[0].speed_rad_s = speed;
   top.o.rotation_rate_rad_s = Vec3(0, precession, 0);
-  SECTION("free to turn about its axis") { CHECK(precession_ratio(top, precession, {speed}) == Approx(1).epsilon(1e-8)); }
+  SECTION("free to turn about its axis") {
+    CHECK(precession_ratio(top, precession, {speed}) == Approx(1).epsilon(1e-8));
+  }
   SECTION("in a gimbal that locks that rotation") {
     top.o.mount.rotation_x.kind = "locked";
     CHECK(precession_ratio(top, precession, {speed}) == Approx(1).epsilon(1e-8));
