@@ -13,7 +13,8 @@ struct ServoMotor {
   double acceleration(double command, double speed) const { return (command - speed) / time_constant; }
 };
 
-/// A direct-current motor without inductance: loads slow it down. The command is the no-load speed that sets its voltage.
+/// A direct-current motor without inductance: loads slow it down. The command sets its voltage: that of the commanded
+/// speed without load.
 struct TorqueMotor {
   double torque_constant;   ///< N m/A, which is V s/rad
   double resistance;        ///< ohm

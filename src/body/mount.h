@@ -36,9 +36,9 @@ struct MountMotion {
   Speeds force;  ///< of springs and dampers, on the speeds
 };
 
-/// The six coordinates are the position of P in inertial axes and the gimbal angles (attitude.h). Only those that move by
-/// themselves are states. When all three rotations do, the states are a quaternion and the angular velocity in body
-/// axes, so that a free body knows no gimbal lock.
+/// The six coordinates are the position of P in inertial axes and the gimbal angles (attitude.h). Only those that are
+/// free or on springs are states. When all three rotations are, the states are a quaternion and the angular velocity in
+/// body axes, so that a free body knows no gimbal lock.
 class Mount {
  public:
   explicit Mount(const std::array<Freedom, 6>& freedoms);

@@ -35,7 +35,8 @@ void declare(V& v, RotorOptions& o) {
 
 namespace keys {
 constexpr const char* kFreedomDoc =
-    "free, locked at its initial value, on a spring and damper, or mean + rate t + amplitude sin(2π frequency t + phase)";
+    "free, locked at its initial value, on a spring and damper, or prescribed: mean + rate t + amplitude "
+    "sin(2π frequency t + phase)";
 inline const std::vector<std::string> freedom_kinds = {"free", "locked", "spring", "prescribed"};
 
 template <class V>

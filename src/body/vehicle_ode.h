@@ -18,9 +18,9 @@ struct Kinematics {
   Vec3 omega_WB_W() const { return R_WB * omega_WB_B; }
 };
 
-/// State: positions of the mount | their speeds | rotor speeds | rotor angles. For a free body these are the position of
-/// the mount's point (the centre of gravity by default) and the quaternion | its velocity (inertial axes) and the angular
-/// velocity (body axes) | ...
+/// State: positions of the mount | their speeds | rotor speeds | rotor angles. For a free body the positions are that of
+/// the mount's point (the centre of gravity by default) and the quaternion, the speeds that point's velocity (inertial
+/// axes) and the angular velocity (body axes).
 class VehicleOde {
  public:
   explicit VehicleOde(Vehicle vehicle);

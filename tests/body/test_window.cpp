@@ -148,6 +148,8 @@ TEST_CASE("an exception in the right-hand side comes back, the state untouched; 
   const Ode stiff{.derivative = [](double t, auto, auto rate) { rate[0] = std::sin(1e6 * t), rate[1] = 0; },
                   .project = {}};
   CHECK_THROWS_AS(integrator.advance(stiff, 0, 1, y), SolverFailure);
+  const Ode broken{.derivative = [](double, auto, auto rate) { rate[0] = std::nan(""), rate[1] = 0; }, .project = {}};
+  CHECK_THROWS_AS(integrator.advance(broken, 0, 1, y), SolverFailure);
   CHECK(y == std::vector<double>{1, 2});
 }
 
