@@ -25,16 +25,17 @@ class State:
     pressure: np.ndarray
     center: np.ndarray
     volume: np.ndarray
-    rotation: np.ndarray  # from the zone's frame to the inertial one
-    origin: np.ndarray  # of the zone's frame
+    rotation: np.ndarray  # from the first zone's frame to the inertial one
+    origin: np.ndarray  # of that frame
 
 
 def read_state(path):
     """The flow in a checkpoint."""
     with h5py.File(path) as file:
         q, center, volume = file["q"][:], file["centroid_m"][:], file["volume_m3"][:, 0]
+        zone = file["zone"][:, 0].astype(int)
         a = dict(file.attrs)
-    rotation, origin = np.reshape(a["zone_R"], (3, 3)), np.ravel(a["zone_x_m"])
+    rotation, origin = np.reshape(a["zone_R"], (-1, 3, 3)), np.reshape(a["zone_x_m"], (-1, 3))
     scale = {name: float(np.ravel(a[name])[0]) for name in ("time_s", "density_kg_m3", "sound_speed_m_s", "gamma")}
     velocity = q[:, 1:4] / q[:, :1]
     pressure = (scale["gamma"] - 1) * (q[:, 4] - 0.5 * q[:, 0] * (velocity**2).sum(axis=1))
@@ -43,10 +44,10 @@ def read_state(path):
         density=q[:, 0] * scale["density_kg_m3"],
         velocity=velocity * scale["sound_speed_m_s"],
         pressure=pressure * scale["density_kg_m3"] * scale["sound_speed_m_s"] ** 2,
-        center=origin + center @ rotation.T,
+        center=origin[zone] + np.einsum("nij,nj->ni", rotation[zone], center),
         volume=volume,
-        rotation=rotation,
-        origin=origin,
+        rotation=rotation[0],
+        origin=origin[0],
     )
 
 

@@ -9,14 +9,16 @@ from vtkmodules.vtkFiltersCore import vtkCellCenters
 from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataReader
 
 
-def _leaves(block, name=""):
-    if not block.IsA("vtkMultiBlockDataSet"):
+def _pieces(block, name=""):
+    """Every data set in a tree of blocks, with the name of the block it belongs to."""
+    if block.IsA("vtkMultiBlockDataSet"):
+        for i in range(block.GetNumberOfBlocks()):
+            if block.GetBlock(i) is not None:
+                yield from _pieces(block.GetBlock(i), block.GetMetaData(i).Get(vtkCompositeDataSet.NAME()))
+    elif block.IsA("vtkMultiPieceDataSet"):
+        yield from ((name, block.GetPiece(i)) for i in range(block.GetNumberOfPieces()))
+    else:
         yield name, block
-        return
-    for i in range(block.GetNumberOfBlocks()):
-        child, meta = block.GetBlock(i), block.GetMetaData(i)
-        if child is not None:
-            yield from _leaves(child, meta.Get(vtkCompositeDataSet.NAME()) or name)
 
 
 def read_patch(file, patch):
@@ -24,7 +26,7 @@ def read_patch(file, patch):
     reader = vtkXMLMultiBlockDataReader()
     reader.SetFileName(str(file))
     reader.Update()
-    parts = [part for name, part in _leaves(reader.GetOutput()) if name == patch]
+    parts = [part for name, part in _pieces(reader.GetOutput()) if name == patch]
     if not parts:
         raise ValueError(f"{file}: no block {patch}")
     collected = {}

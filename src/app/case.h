@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/rotor_options.h"
 #include "mesh/motion.h"
 
 namespace windhover::app {
@@ -18,6 +19,9 @@ struct MeshOptions {
   std::string geometry;  ///< after load_case: absolute, or empty
   std::map<std::string, double> parameters;
   double scale_m = 1;
+  double refine = 1;
+  geometry::FarfieldOptions farfield;
+  double min_dihedral_deg = 2, min_edge_m = 0;  ///< after load_case with rotors: min_edge_m follows from the smallest rotor
 };
 
 /// State on one side of the initial jump; the velocity is along the jump's direction.
@@ -114,7 +118,8 @@ struct Case {
   FluidOptions fluid;
   WindOptions wind;
   BodyOptions body;
-  std::vector<ZoneOptions> zone;
+  std::vector<geometry::RotorOptions> rotor;
+  std::vector<ZoneOptions> zone;  ///< after load_case: those of rotors as well
   TimeOptions time;
   SolverOptions solver;
   OutputOptions output;
@@ -131,6 +136,9 @@ std::string case_file_documentation();
 
 /// The prescribed motion of the root zone in SI units and radians.
 mesh::Motion body_motion(const Case& c);
+
+/// The rotors that `windhover mesh` makes, with the ball around them.
+geometry::GeometryOptions rotor_geometry(const Case& c);
 
 /// How a zone turns in its parent, in SI units and radians.
 mesh::Rotation zone_rotation(const ZoneOptions& zone);

@@ -2,6 +2,7 @@
 #pragma once
 #include "app/case.h"
 #include "base/options.h"
+#include "geometry/rotor_keys.h"
 
 namespace windhover::app {
 
@@ -12,6 +13,12 @@ void declare(V& v, MeshOptions& o) {
   v.key("geometry", o.geometry, {.doc = "gmsh .geo file from which `windhover mesh` makes the mesh"});
   v.key("parameters", o.parameters, {.doc = "numbers handed to the geometry, in place of its DefineConstant defaults"});
   v.key("scale_m", o.scale_m, {.doc = "metres per unit of the mesh file", .above = 0});
+  v.key("refine", o.refine, {.doc = "all sizes of [[rotor]] and farfield are divided by it", .above = 0});
+  v.key("min_dihedral_deg", o.min_dihedral_deg,
+        {.doc = "`windhover mesh` refuses a mesh with a smaller angle between two faces of a cell", .min = 0});
+  v.key("min_edge_m", o.min_edge_m,
+        {.doc = "and with a shorter edge; missing: 1e-4 of the smallest rotor's radius", .min = 0});
+  v.section("farfield", o.farfield, "The ball around the rotors.");
 }
 
 template <class V>
@@ -165,6 +172,9 @@ void declare(V& v, Case& o) {
   v.section("fluid", o.fluid, "The gas, the boundaries and the discretisation in space.");
   v.section("wind", o.wind, "The air far away.");
   v.section("body", o.body, "The body: its walls and its motion.");
+  v.tables("rotor", o.rotor,
+           "Rotors that `windhover mesh` makes. Each is a [[zone]] in the zone \"outer\", its walls are the surfaces name + "
+           "\"_blades\" and name + \"_hub\", the ball is the surface \"farfield\".");
   v.tables("zone", o.zone, "Zones that turn inside others; the rest of the mesh moves with the body.");
   v.section("time", o.time, "The discretisation in time.");
   v.section("solver", o.solver, "Newton's method and the linear solver of a time step.");

@@ -50,12 +50,13 @@ void FlowCheckpoint::write(const std::filesystem::path& directory, const fluid::
   out.attribute("zone_x_m", x);
   out.array("q", rows_of(state.q), fluid::kVariables);
   out.array("q_previous", rows_of(state.previous), fluid::kVariables);
-  std::vector<double> centroid, volume;
+  std::vector<double> centroid, volume, zone(mesh_.cell_zone.begin(), mesh_.cell_zone.begin() + mesh_.n_owned);
   for (mesh::Index c = 0; c < mesh_.n_owned; ++c) {
     for (int k = 0; k < 3; ++k) centroid.push_back(s.length * mesh_.centroid[c][k]);
     volume.push_back(s.length * s.length * s.length * mesh_.volume[c]);
   }
   out.array("centroid_m", order_.to_rows(centroid, 3), 3);
+  out.array("zone", order_.to_rows(zone, 1), 1);
   out.array("volume_m3", order_.to_rows(volume, 1), 1);
   out.finish();
 }

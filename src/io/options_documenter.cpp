@@ -38,6 +38,9 @@ void OptionsDocumenter::key(const std::string& name, const Eigen::Vector3d& valu
 void OptionsDocumenter::key(const std::string& name, const std::vector<std::string>& value, const Key& key) {
   row(name, "list of strings", fmt::format("[{}]", quoted_list(value)), key);
 }
+void OptionsDocumenter::key(const std::string& name, const std::vector<double>& value, const Key& key) {
+  row(name, "list of numbers", fmt::format("[{}]", fmt::join(value, ", ")), key);
+}
 void OptionsDocumenter::key(const std::string& name, const std::map<std::string, double>&, const Key& key) {
   row(name, "table of numbers", "{}", key);
 }

@@ -108,6 +108,16 @@ void OptionsReader::key(const std::string& name, std::vector<std::string>& value
     value.push_back(read_string(element, fmt::format("{}{}[{}]", prefix_, name, value.size()), key));
 }
 
+void OptionsReader::key(const std::string& name, std::vector<double>& value, const Key& key) {
+  const auto* node = find(name);
+  if (!node) return;
+  const auto* array = node->as_array();
+  if (!array) refuse(*node, prefix_ + name, "expected a list of numbers");
+  value.clear();
+  for (const toml::node& element : *array)
+    value.push_back(read_number(element, fmt::format("{}{}[{}]", prefix_, name, value.size()), key));
+}
+
 void OptionsReader::key(const std::string& name, std::map<std::string, double>& value, const Key& key) {
   const toml::table* table = find_table(name);
   if (!table) return;

@@ -35,6 +35,7 @@ class OptionsReader {
   void key(const std::string& name, std::string& value, const Key& key);
   void key(const std::string& name, Eigen::Vector3d& value, const Key& key);
   void key(const std::string& name, std::vector<std::string>& value, const Key& key);
+  void key(const std::string& name, std::vector<double>& value, const Key& key);
   void key(const std::string& name, std::map<std::string, double>& value, const Key& key);
   void key(const std::string& name, std::map<std::string, std::string>& value, const Key& key);
 

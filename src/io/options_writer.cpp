@@ -50,6 +50,10 @@ void OptionsWriter::key(const std::string& name, const std::vector<std::string>&
   keys_ += fmt::format("{} = [{}]\n", name, list);
 }
 
+void OptionsWriter::key(const std::string& name, const std::vector<double>& value, const Key&) {
+  keys_ += fmt::format("{} = [{}]\n", name, fmt::join(value, ", "));
+}
+
 void OptionsWriter::key(const std::string& name, const std::map<std::string, double>& value, const Key&) {
   sections_ += fmt::format("\n[{}.{}]\n", path_, name);
   for (const auto& [entry, number] : value) sections_ += fmt::format("{} = {}\n", key_text(entry), number);

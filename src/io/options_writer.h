@@ -20,6 +20,7 @@ class OptionsWriter {
   void key(const std::string& name, const std::string& value, const Key&);
   void key(const std::string& name, const Eigen::Vector3d& value, const Key&);
   void key(const std::string& name, const std::vector<std::string>& value, const Key&);
+  void key(const std::string& name, const std::vector<double>& value, const Key&);
   void key(const std::string& name, const std::map<std::string, double>& value, const Key&);
   void key(const std::string& name, const std::map<std::string, std::string>& value, const Key&);
 
@@ -30,7 +31,7 @@ class OptionsWriter {
 
   template <class Options>
   void section(const std::string& name, Options& options, const std::string&) {
-    OptionsWriter writer(path_.empty() ? name : path_ + "." + name);
+    OptionsWriter writer(below(name));
     declare(writer, options);
     sections_ += "\n[" + writer.path_ + "]\n" + writer.text();
   }
@@ -38,7 +39,7 @@ class OptionsWriter {
   template <class Options>
   void tables(const std::string& name, std::vector<Options>& list, const std::string&) {
     for (Options& options : list) {
-      OptionsWriter writer(path_ + "." + name);
+      OptionsWriter writer(below(name));
       declare(writer, options);
       sections_ += "\n[[" + writer.path_ + "]]\n" + writer.text();
     }
@@ -52,6 +53,8 @@ class OptionsWriter {
   std::string text() const { return keys_ + sections_; }
 
  private:
+  std::string below(const std::string& name) const { return path_.empty() ? name : path_ + "." + name; }
+
   std::string path_;
   std::string keys_, sections_;  // in TOML a table's own keys come before its sub-tables
 };

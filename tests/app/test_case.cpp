@@ -119,7 +119,8 @@ TEST_CASE("overrides: values, bare words, elements of arrays", "[app]") {
 
 TEST_CASE("the effective case reads back as the same case", "[app]") {
   const CaseFile file(minimal);
-  const auto c = load_case(file.path, {"fluid.initial.kind=riemann", "fluid.initial.left.pressure_Pa=0.1"});
+  const auto c = load_case(file.path, {"fluid.initial.kind=riemann", "fluid.initial.left.pressure_Pa=0.1",
+                                         "zone=[{name = 'rotor', parent = 'air', radius_m = 1, to_m = 1}]"});
   const std::string text = app::effective_case(c);
   CHECK_THAT(text, Contains("limiter_epsilon = 0.01\n") && Contains("written by windhover"));
   const CaseFile copy(text);
