@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <span>
 
 #include "base/errors.h"
 #include "mesh/cell_shape.h"
+#include "mesh/face_geometry.h"
 #include "mesh/plex_file.h"
 
 namespace windhover::mesh {
@@ -122,6 +124,24 @@ bool translation(const FileMesh& mesh, const SharedFace& face, Vec3& shift) {
   return mismatch <= 1e-6 * size;
 }
 
+bool is_inverted(const FileCell& cell) {
+  std::array<Vec3, 8> corners;
+  for (int i = 0; i < point_count(cell.type); ++i) corners[i] = cell.corners[i].position;
+  return cell_geometry(cell.type, std::span(corners).first(point_count(cell.type))).volume <= 0;
+}
+
+/// Whether the two cells lie on the same side of their face: they run round it in the same direction. (So they do when one
+/// is inverted, which is another complaint.)
+bool overlap(const FileMesh& mesh, const SharedFace& face) {
+  const FileCell &a = mesh.cells[face.cell[0]], &b = mesh.cells[face.cell[1]];
+  const ShapeFace &at = faces_of(a.type)[face.side[0]], &bt = faces_of(b.type)[face.side[1]];
+  const auto node_a = [&](int i) { return a.corners[at.point[i % at.n]].node; };
+  const auto node_b = [&](int i) { return b.corners[bt.point[i % bt.n]].node; };
+  int first = 0;
+  while (node_b(first) != node_a(0)) ++first;
+  return node_b(first + 1) != node_a(at.n - 1) && !is_inverted(a) && !is_inverted(b);
+}
+
 /// Periodic surfaces of which only the edges were matched (gmsh without its search for closest nodes leaves such files):
 /// there more than two boundary faces meet at an edge. Adds one of them for each such edge.
 void find_half_matched(DM dm, const FileMesh& mesh, const std::vector<SharedFace>& faces, Complaint& complaint) {
@@ -166,7 +186,7 @@ class PatchList {
 
 void pair_faces(DM dm, const GmshHeader& header, const std::string& file, double scale, FileMesh& mesh) {
   Complaint crowded(file, scale), half_matched(file, scale), holes(file, scale), unnamed(file, scale),
-      inside(file, scale), turned(file, scale);
+      inside(file, scale), turned(file, scale), overlapping(file, scale);
   const std::vector<SharedFace> faces = shared_faces(dm, mesh, crowded);
   crowded.throw_if_any("a face belongs to more than two cells: a cell is twice in the file, or there are less than three "
                        "cells between periodic surfaces");
@@ -177,6 +197,7 @@ void pair_faces(DM dm, const GmshHeader& header, const std::string& file, double
   const auto interior = [&](const SharedFace& face) { return face.uses == 2 && zone_of(face, 0) == zone_of(face, 1); };
   PatchList patches(header);
   for (const SharedFace& face : faces) {
+    if (face.uses == 2 && overlap(mesh, face)) overlapping.add(mesh, face.cell[0], face.side[0]);
     if (interior(face)) {
       Vec3 shift;
       if (!translation(mesh, face, shift)) turned.add(mesh, face.cell[0], face.side[0]);
@@ -187,6 +208,7 @@ void pair_faces(DM dm, const GmshHeader& header, const std::string& file, double
       for (int k = 0; k < face.uses; ++k) patches.add(face.tag, zone_of(face, k));
     }
   }
+  overlapping.throw_if_any("cells overlap: two of them lie on the same side of their common face");
   turned.throw_if_any("periodic surfaces are not translations of each other, or less than three cells apart");
   holes.throw_if_any("a hole: boundary faces without physical surface; put every boundary surface into one");
   unnamed.throw_if_any("faces between two physical volumes without physical surface; name the surface, or put both "

@@ -141,3 +141,9 @@ TEST_CASE("periodic surfaces too close, or matched at the edges only") {
   CHECK_THAT(error_of(make_mesh("box", {{"nx", 1}, {"nz", 1}, {"px", 1}})), Contains("three cells") || Contains("do not fit"));
   CHECK_THAT(error_of(make_mesh("box", {{"nz", 3}, {"px", 1}})), Contains("matched at their edges only"));
 }
+
+TEST_CASE("two cells on the same side of their face are told with the place", "[mesh][errors]") {
+  const std::string file =
+      write_file("overlap", two_tetrahedra(skin + std::vector<std::string>{"4 2 2 1 1 2 3 4", "4 2 2 1 1 2 3 5"}, "0.3 0.3 0.5"));
+  CHECK_THAT(error_of(file), Contains("cells overlap") && Contains("(0.333333, 0.333333, 0)"));
+}
