@@ -100,12 +100,12 @@ class Simulation {
                                     : case_.time.first_step_ratio * nominal_step_;
     if (dt > 0.999 * nominal_step_) dt = nominal_step_;
     if (end_time_ - state.time < dt * (1 - 1e-9)) dt = end_time_ - state.time;
-    for (int halvings = 0;; ++halvings) {
+    const double smallest = case_.time.first_step_ratio * nominal_step_ * std::pow(0.5, case_.solver.max_halvings);
+    for (;; dt /= 2) {
       last_report_ = solver_.advance([this](double t) { return frames(t); }, dt);
       if (last_report_.accepted) break;
       summary_.rejected();
-      if (halvings == case_.solver.max_halvings) give_up(dt);
-      dt /= 2;
+      if (dt / 2 < smallest) give_up(dt);
     }
     const double solved = MPI_Wtime();
     saved_ = false;
@@ -119,9 +119,8 @@ class Simulation {
   [[noreturn]] void give_up(double dt) {
     const fluid::FlowState& state = solver_.state();
     if (!saved_) write_checkpoint();
-    throw SolverFailure("step {} at {:.6g} s failed with {:.3g} s, {} times halved: {}; the last accepted state is in {}",
-                        state.step + 1, state.time * scales_.time(), dt * scales_.time(), case_.solver.max_halvings,
-                        last_report_.reason, (directory_ / "checkpoint").string());
+    throw SolverFailure("step {} after {:.6g} s failed, the last try with {:.3g} s: {}; the last accepted state is in {}",
+                        state.step + 1, state.time * scales_.time(), dt * scales_.time(), last_report_.reason, (directory_ / "checkpoint").string());
   }
 
   void write_checkpoint() {

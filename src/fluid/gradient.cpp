@@ -3,6 +3,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "mesh/cell_shape.h"
 #include "mesh/motion.h"
@@ -17,10 +18,14 @@ using mesh::Vec3;
 namespace {
 
 /// Inverse that leaves directions without information out (one cell across).
-Mat3 pseudo_inverse(const Mat3& a) {
+struct PseudoInverse {
+  Mat3 matrix;
+  double amplification;  ///< its norm
+};
+PseudoInverse pseudo_inverse(const Mat3& a) {
   Eigen::JacobiSVD<Mat3> svd(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
   svd.setThreshold(1e-8);
-  return svd.solve(Mat3::Identity());
+  return {svd.solve(Mat3::Identity()), 1.0 / svd.singularValues()[svd.rank() - 1]};
 }
 
 /// Green–Gauss coefficients of a cell's points: gradient = Σ coefficient_j value_j. Faces are fans of triangles about the
@@ -90,6 +95,8 @@ GreenGauss::GreenGauss(const Mesh& m) {
     for (int k = nodes.start[i]; k < nodes.start[i + 1]; ++k) node_weight_[k] /= sum;
   }
 
+  constexpr double kLargestAmplification = 4;  // of a regular cell: 1 to 2
+  std::vector<int> ill_conditioned;
   cell_start_.push_back(0);
   for (Index c = 0; c < m.n_gradient; ++c) {
     const Index first = m.cell_point_start[c];
@@ -102,7 +109,8 @@ GreenGauss::GreenGauss(const Mesh& m) {
       const int node = nodes.used[m.point_node[m.cell_point[first + j]]];
       g += coefficient[j] * (points[j] + mean_shift[node]).transpose();
     }
-    const Mat3 correction = pseudo_inverse(g);
+    const auto [correction, amplification] = pseudo_inverse(g);
+    if (amplification > kLargestAmplification) ill_conditioned.push_back(c);
     for (int j = 0; j < n; ++j) {
       const Vec3 d = correction * coefficient[j];
       cell_node_.push_back(nodes.used[m.point_node[m.cell_point[first + j]]]);
@@ -112,6 +120,7 @@ GreenGauss::GreenGauss(const Mesh& m) {
   }
   node_start_ = std::move(nodes.start);
   node_cell_ = std::move(nodes.cell);
+  if (!ill_conditioned.empty()) exceptions_.emplace(m, std::move(ill_conditioned));
 }
 
 void GreenGauss::apply(const Row* cells, GradientRow* gradients) const {
@@ -130,12 +139,25 @@ void GreenGauss::apply(const Row* cells, GradientRow* gradients) const {
     }
     gradients[c].store(g);
   }
+  if (exceptions_) exceptions_->apply(cells, gradients);
 }
 
-LeastSquares::LeastSquares(const Mesh& m) {
+namespace {
+
+std::vector<int> all_cells(const Mesh& m) {
+  std::vector<int> cells(m.n_gradient);
+  std::iota(cells.begin(), cells.end(), 0);
+  return cells;
+}
+
+}  // namespace
+
+LeastSquares::LeastSquares(const Mesh& m) : LeastSquares(m, all_cells(m)) {}
+
+LeastSquares::LeastSquares(const Mesh& m, std::vector<int> cells) : cell_(std::move(cells)) {
   const NodeCells nodes = collect_node_cells(m);
   start_.push_back(0);
-  for (Index c = 0; c < m.n_gradient; ++c) {
+  for (const int c : cell_) {
     std::map<int, Vec3> offset;  // neighbour → its centroid from here (through the shared node, so across periodic faces)
     for (Index k = m.cell_point_start[c]; k < m.cell_point_start[c + 1]; ++k) {
       const Index point = m.cell_point[k];
@@ -146,7 +168,7 @@ LeastSquares::LeastSquares(const Mesh& m) {
     }
     Mat3 normal = Mat3::Zero();
     for (const auto& [other, d] : offset) normal += d * d.transpose() / d.squaredNorm();
-    const Mat3 inverse = pseudo_inverse(normal);
+    const Mat3 inverse = pseudo_inverse(normal).matrix;
     for (const auto& [other, d] : offset) {
       const Vec3 w = inverse * d / d.squaredNorm();
       neighbour_.push_back(other);
@@ -157,15 +179,14 @@ LeastSquares::LeastSquares(const Mesh& m) {
 }
 
 void LeastSquares::apply(const Row* cells, GradientRow* gradients) const {
-  const int n_cells = static_cast<int>(start_.size()) - 1;
-  for (int c = 0; c < n_cells; ++c) {
-    const Pack own = Pack::load(cells[c].v);
+  for (size_t i = 0; i < cell_.size(); ++i) {
+    const Pack own = Pack::load(cells[cell_[i]].v);
     Pack g[3] = {0.0, 0.0, 0.0};
-    for (int k = start_[c]; k < start_[c + 1]; ++k) {
+    for (int k = start_[i]; k < start_[i + 1]; ++k) {
       const Pack difference = Pack::load(cells[neighbour_[k]].v) - own;
       for (int d = 0; d < 3; ++d) g[d] += coefficient_[k][d] * difference;
     }
-    gradients[c].store(g);
+    gradients[cell_[i]].store(g);
   }
 }
 

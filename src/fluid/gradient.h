@@ -1,5 +1,6 @@
 // Gradients of cell values that are exact for linear fields on any mesh.
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "fluid/face_kernel.h"
@@ -7,37 +8,42 @@
 
 namespace windhover::fluid {
 
-/// Green–Gauss from node values. A node value is the inverse-distance weighted mean of the cells around the node
-/// (Frink 1994), a cell's gradient sums face integrals of the nodes' linear interpolant. Applied to x, y, z that gives
-/// a matrix G instead of the identity; multiplying the cell's coefficients by G⁻¹ once, at set-up, makes every linear
-/// field exact at no cost later. (Where the mesh has one cell across, G has no inverse across: the pseudo-inverse
-/// leaves that derivative zero.)
-class GreenGauss {
+/// Inverse-distance weighted least squares over all cells that share a node.
+class LeastSquares {
  public:
-  explicit GreenGauss(const mesh::Mesh& mesh);
+  /// For all cells that need gradients, or for some of them.
+  explicit LeastSquares(const mesh::Mesh& mesh);
+  LeastSquares(const mesh::Mesh& mesh, std::vector<int> cells);
 
   /// cells: [n_cells] rows, gradients: [n_gradient], in zone axes. A linear map: also takes derivatives of cells.
   void apply(const Row* cells, GradientRow* gradients) const;
 
  private:
-  std::vector<int> node_start_;       // of each node used, into the next two
-  std::vector<int> node_cell_;
-  std::vector<double> node_weight_;
-  std::vector<int> cell_start_;       // of each cell with gradient, into the next two
-  std::vector<int> cell_node_;
+  std::vector<int> cell_;
+  std::vector<int> start_, neighbour_;
   std::vector<std::array<double, 3>> coefficient_;
-  mutable std::vector<Row> node_rows_;
 };
 
-/// Inverse-distance weighted least squares over all cells that share a node: the yardstick for GreenGauss.
-class LeastSquares {
+/// Green–Gauss from node values. A node value is the inverse-distance weighted mean of the cells around the node
+/// (Frink 1994), a cell's gradient sums face integrals of the nodes' linear interpolant. Applied to x, y, z that gives
+/// a matrix G instead of the identity; multiplying the cell's coefficients by G⁻¹ once, at set-up, makes every linear
+/// field exact at no cost later. (Where the mesh has one cell across, G has no inverse across: the pseudo-inverse
+/// leaves that derivative zero.) The few cells with a nearly singular G, mostly with all nodes on a boundary, would
+/// amplify noise: they get least squares.
+class GreenGauss {
  public:
-  explicit LeastSquares(const mesh::Mesh& mesh);
+  explicit GreenGauss(const mesh::Mesh& mesh);
   void apply(const Row* cells, GradientRow* gradients) const;
 
  private:
-  std::vector<int> start_, neighbour_;
+  std::vector<int> node_start_;  // of each node used, into the next two
+  std::vector<int> node_cell_;
+  std::vector<double> node_weight_;
+  std::vector<int> cell_start_;  // of each cell with gradient, into the next two
+  std::vector<int> cell_node_;
   std::vector<std::array<double, 3>> coefficient_;
+  mutable std::vector<Row> node_rows_;
+  std::optional<LeastSquares> exceptions_;
 };
 
 }  // namespace windhover::fluid
