@@ -10,7 +10,9 @@ MAY_INCLUDE = {
     "body": {"base"},
     "control": {"base"},
     "io": {"base"},
-    "app": {"base", "mesh", "fluid", "io"},
+    "geometry": {"base", "io"},
+    "mesher": {"base", "io", "geometry"},
+    "app": {"base", "mesh", "fluid", "io", "geometry"},
 }
 
 source = pathlib.Path(sys.argv[1]) / "src"

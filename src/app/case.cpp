@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "app/case_keys.h"
+#include "app/rotors.h"
 #include "base/errors.h"
 #include "base/version.h"
 #include "io/options_documenter.h"
@@ -39,6 +40,7 @@ void complete(Case& c) {
   } else if (!mesh.geometry.empty()) {
     mesh.file = mesh_of_geometry(mesh);
   }
+  complete_rotors(c);
   for (auto& zone : c.zone) {
     if (zone.inner_surface.empty()) zone.inner_surface = zone.name + "_slide";
     if (zone.outer_surface.empty()) zone.outer_surface = zone.inner_surface;
@@ -68,7 +70,7 @@ void validate_time(const Case& c, const toml::table& file) {
     throw UserError("{}: time: exactly one of steps and end_s is needed, {} given", io::place(file, "time"),
                     time.steps ? "both are" : "none is");
   if (time.step_deg && fastest_rotation_deg_s(c) == 0)
-    throw UserError("{}: time.step_deg = {}: needs a [[zone]] or a [[body.motion]] of kind \"rotation\" with rate_deg_s",
+    throw UserError("{}: time.step_deg = {}: needs a [[rotor]], a [[zone]] or a [[body.motion]] of kind \"rotation\" that turns",
                     io::place(file, "time.step_deg"), *time.step_deg);
 }
 
@@ -78,7 +80,7 @@ void validate_direction(const Vec3& direction, const std::string& key, const tom
 
 void validate(const Case& c, const toml::table& file) {
   if (c.mesh.file.empty())
-    throw UserError("{}: mesh: one of mesh.file and mesh.geometry is needed", io::place(file, "mesh"));
+    throw UserError("{}: mesh: one of mesh.file, mesh.geometry and a [[rotor]] with blades is needed", io::place(file, "mesh"));
   if (!c.mesh.parameters.empty() && c.mesh.geometry.empty())
     throw UserError("{}: mesh.parameters: is of no use without mesh.geometry", io::place(file, "mesh.parameters"));
   for (const auto& name : c.body.walls) {
@@ -102,6 +104,7 @@ void validate(const Case& c, const toml::table& file) {
       throw UserError("{}: {}: name and parent are needed", io::place(file, key), key);
     validate_direction(zone.axis, key + ".axis", file);
   }
+  validate_rotors(c, file);
   validate_time(c, file);
   constexpr double most_steps = 1e9;
   if (c.time.end_s && *c.time.end_s / step_seconds(c) > most_steps)
@@ -122,7 +125,9 @@ Case load_case(const fs::path& file, const std::vector<std::string>& overrides) 
   return c;
 }
 
-std::string effective_case(const Case& c) {
+std::string effective_case(const Case& effective) {
+  Case c = effective;
+  remove_rotor_zones(c);
   return fmt::format("# {}: the effective case, written by windhover {} ({})\n{}", c.name, version, revision,
                      io::options_text(c));
 }

@@ -137,7 +137,10 @@ std::string case_file_documentation();
 /// The prescribed motion of the root zone in SI units and radians.
 mesh::Motion body_motion(const Case& c);
 
-/// The rotors that `windhover mesh` makes, with the ball around them.
+/// `windhover mesh` makes the mesh from [[rotor]], not from a .geo file.
+bool is_made_from_rotors(const Case& c);
+
+/// The rotors that it makes, with the ball around them.
 geometry::GeometryOptions rotor_geometry(const Case& c);
 
 /// How a zone turns in its parent, in SI units and radians.

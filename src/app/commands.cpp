@@ -25,7 +25,7 @@ struct Arguments {
 int mesh_command(const Arguments& a) {
   reject_mpiexec("mesh");
   const Case c = load_case(a.path, a.overrides);
-  if (!c.mesh.geometry.empty()) make_mesh(c);
+  if (can_make_mesh(c)) make_mesh(c);
   const Session session("");
   return guarded([&] {
     report_mesh(c);

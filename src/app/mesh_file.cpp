@@ -9,6 +9,8 @@
 #include "base/errors.h"
 #include "base/options.h"
 #include "io/file.h"
+#include "geometry/rotor_keys.h"
+#include "io/options_writer.h"
 #include "mesh/mesh.h"
 #include "mesh/quality.h"
 
@@ -50,35 +52,67 @@ void print_worst(const char* name, const mesh::Worst& worst, const char* unit) {
              worst.place[1], worst.place[2]);
 }
 
+/// What the mesh is made from, and the record of it beside the mesh.
+std::string geometry_text(const Case& c) {
+  geometry::GeometryOptions geometry = rotor_geometry(c);
+  for (auto& rotor : geometry.rotor) rotor.rpm = 0;  // the mesh does not depend on it
+  return io::options_text(geometry);
+}
+std::string record_of(const Case& c) { return c.mesh.file + ".toml"; }
+
+bool is_other_geometry(const Case& c) {
+  return is_made_from_rotors(c) && (!fs::exists(record_of(c)) || io::read_text(record_of(c)) != geometry_text(c));
+}
+
+std::vector<std::string> mesher_command(const Case& c, const std::string& output) {
+  if (is_made_from_rotors(c)) {
+    io::write_atomically(record_of(c), geometry_text(c));
+    return {fs::path(own_path()).replace_filename("windhover-mesher"), record_of(c), output};
+  }
+  validate_parameters(c.mesh);
+  std::vector<std::string> command = {"gmsh", c.mesh.geometry, "-3", "-format", "msh41", "-o", output};
+  for (const auto& [name, value] : c.mesh.parameters)
+    command.insert(command.end(), {"-setnumber", name, fmt::format("{}", value)});
+  return command;
+}
+
+void refuse(const Case& c, const char* what, const mesh::Worst& worst, const char* key, double limit) {
+  throw UserError("{}: {} {:.3g} at ({:.4g}, {:.4g}, {:.4g}) m is below {} = {:.3g}: Newton would stall", c.mesh.file, what,
+                  worst.value, worst.place[0], worst.place[1], worst.place[2], key, limit);
+}
+
 }  // namespace
+
+bool can_make_mesh(const Case& c) { return is_made_from_rotors(c) || !c.mesh.geometry.empty(); }
 
 bool mesh_is_due(const Case& c) {
   std::error_code missing;
   const auto made = fs::last_write_time(c.mesh.file, missing);
-  if (missing) return true;
+  if (missing || is_other_geometry(c)) return true;
   return !c.mesh.geometry.empty() && fs::exists(c.mesh.geometry) && fs::last_write_time(c.mesh.geometry) > made;
 }
 
 void require_mesh(const Case& c) {
-  if (fs::exists(c.mesh.file)) return;
-  throw UserError("{}: mesh.file: {} does not exist{}", c.file.string(), c.mesh.file,
-                  c.mesh.geometry.empty() ? "" : "; `windhover mesh` with the same arguments makes it");
+  if (!fs::exists(c.mesh.file))
+    throw UserError("{}: mesh.file: {} does not exist{}", c.file.string(), c.mesh.file,
+                    can_make_mesh(c) ? "; `windhover mesh` with the same arguments makes it" : "");
+  if (is_other_geometry(c))
+    throw UserError("{}: {} was made from other [[rotor]] or mesh keys; `windhover mesh` with the same arguments makes it anew",
+                    c.file.string(), c.mesh.file);
 }
 
 void make_mesh(const Case& c) {
-  validate_parameters(c.mesh);
-  const std::string temporary = c.mesh.file + ".tmp", log = c.mesh.file + ".log";
-  std::vector<std::string> command = {"gmsh", c.mesh.geometry, "-3", "-format", "msh41", "-o", temporary};
-  for (const auto& [name, value] : c.mesh.parameters)
-    command.insert(command.end(), {"-setnumber", name, fmt::format("{}", value)});
+  const std::string temporary = c.mesh.file + ".tmp.msh", log = c.mesh.file + ".log";
   io::make_folder(fs::path(c.mesh.file).parent_path());
   std::error_code ignored;
   fs::remove(temporary, ignored);
-  const int code = run_process(command, {log, log});
+  fs::remove(c.mesh.file, ignored);
+  const int code = run_process(mesher_command(c, temporary), {log, log});
   const std::string errors = error_lines(io::read_text(log));
   if (code != 0 || !errors.empty() || !fs::exists(temporary)) {
     fs::remove(temporary, ignored);
-    throw UserError("{}: gmsh failed (exit code {}); its messages are in {}{}", c.mesh.geometry, code, log, errors);
+    throw UserError("{}: gmsh failed (exit code {}); its messages are in {}{}",
+                    is_made_from_rotors(c) ? c.file.string() : c.mesh.geometry, code, log, errors);
   }
   io::publish(temporary, c.mesh.file);
   fs::remove(log, ignored);
@@ -103,6 +137,10 @@ void report_mesh(const Case& c) {
   print_worst("shortest edge", quality.smallest_edge, "m");
   print_worst("smallest dihedral angle", quality.smallest_dihedral_deg, "deg");
   print_worst("largest volume ratio of neighbours", quality.largest_volume_ratio, "");
+  if (quality.smallest_edge.value < c.mesh.min_edge_m)
+    refuse(c, "shortest edge", quality.smallest_edge, "mesh.min_edge_m", c.mesh.min_edge_m);
+  if (quality.smallest_dihedral_deg.value < c.mesh.min_dihedral_deg)
+    refuse(c, "smallest dihedral angle", quality.smallest_dihedral_deg, "mesh.min_dihedral_deg", c.mesh.min_dihedral_deg);
 }
 
 }  // namespace windhover::app

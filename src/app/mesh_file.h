@@ -4,16 +4,20 @@
 
 namespace windhover::app {
 
-/// The mesh is missing, or older than the geometry it is made from.
+/// The case says how its mesh is made.
+bool can_make_mesh(const Case& c);
+
+/// The mesh is missing, or older than the geometry it is made from, or made from other rotors.
 bool mesh_is_due(const Case& c);
 
 /// UserError when the mesh is missing, saying how to make it.
 void require_mesh(const Case& c);
 
-/// Runs gmsh on the case's geometry. UserError: gmsh missing, its errors, a parameter that the geometry does not have.
+/// Runs gmsh on the case's geometry, or windhover-mesher on its rotors. UserError: a program missing, its errors, a parameter
+/// that the geometry does not have.
 void make_mesh(const Case& c);
 
-/// Reads the mesh and prints its size and quality.
+/// Reads the mesh and prints its size and quality. UserError when that is below the case's limits.
 void report_mesh(const Case& c);
 
 }  // namespace windhover::app

@@ -39,7 +39,7 @@ void make_run(const VerifyRun& run, const fs::path& case_folder, const fs::path&
     return command;
   };
   const Case c = load_case(case_file, run.overrides);
-  if (!c.mesh.geometry.empty() && mesh_is_due(c)) run_logged(windhover({}, "mesh"), log, run.name);
+  if (can_make_mesh(c) && mesh_is_due(c)) run_logged(windhover({}, "mesh"), log, run.name);
   std::vector<std::string> launcher;
   if (run.ranks > 1) launcher = {"mpiexec", "--oversubscribe", "-n", std::to_string(run.ranks)};
   auto command = windhover(launcher, "run");

@@ -1,6 +1,7 @@
 #include "io/options_documenter.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace windhover::io {
 namespace {

@@ -1,6 +1,7 @@
 #include "io/options_writer.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include <sstream>

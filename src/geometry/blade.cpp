@@ -1,0 +1,115 @@
+#include "geometry/blade.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/strips.h"
+
+namespace windhover::geometry {
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180;
+
+double half_thickness(const std::vector<Vec2>& upper, const std::vector<Vec2>& lower) {
+  double thickness = 0;
+  for (size_t i = 0; i < upper.size(); ++i) thickness = std::max(thickness, (upper[i] - lower[i]).norm() / 2);
+  return thickness;
+}
+
+}  // namespace
+
+Eigen::Matrix3d rotor_axes(const RotorOptions& rotor) {
+  Eigen::Matrix3d axes;
+  axes.col(2) = rotor.axis.normalized();
+  axes.col(0) = axes.col(2).unitOrthogonal();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  return axes;
+}
+
+Blades::Blades(const RotorOptions& rotor, double refine) : rotor_(rotor), refine_(refine), stations_(rotor.blade) {
+  const Airfoil airfoil = make_airfoil(rotor.blade.airfoil, rotor.blade.trailing_edge_thickness);
+  const RotorSizeOptions& size = rotor.size;
+  chordwise_ = {length_of(airfoil.upper), size.leading_edge, size.trailing_edge, size.chord, size.growth};
+  const auto fractions = chordwise_.fractions(refine);
+  upper_ = points_at(airfoil.upper, fractions);
+  lower_ = points_at(airfoil.lower, fractions);
+  const bool rounded = rotor.blade.tip == "rounded";
+  across_ = 2 * std::max(1, static_cast<int>(std::lround(refine * (rounded ? 2 : 1))));
+  const double R = rotor.blade.radius_m, round = rounded ? half_thickness(upper_, lower_) * R : 0;
+  first_radius_ = stations_.root * R + round * stations_.chord(stations_.root);
+  last_radius_ = R - round * stations_.chord(1);
+  spanwise_ = {last_radius_ - first_radius_, size.root_m, size.tip_m, size.span_m, size.growth};
+  for (int k = 0; k < rotor.blade.count; ++k) to_blade_.push_back(pose(k).inverse());
+}
+
+Eigen::Isometry3d Blades::pose(int blade) const {
+  using Eigen::AngleAxisd;
+  const double angle = rotor_.angle_deg * kRadians + 2 * std::numbers::pi * blade / rotor_.blade.count;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translate(rotor_.center_m);
+  pose.rotate(rotor_axes(rotor_));
+  pose.rotate(AngleAxisd(angle, Vec3::UnitZ()));
+  pose.rotate(AngleAxisd(-rotor_.blade.precone_deg * kRadians, Vec3::UnitY()));
+  return pose;
+}
+
+Blades::Section Blades::section(double radius) const {
+  const double R = rotor_.blade.radius_m, at = radius / R;
+  const double pitch = stations_.pitch(at);
+  const Vec3 aft = -rotor_.spin() * Vec3::UnitY();  // the blade moves the other way
+  return {.quarter_chord = radius * Vec3::UnitX() + R * (stations_.sweep(at) * aft + stations_.offset(at) * Vec3::UnitZ()),
+          .back = std::cos(pitch) * aft - std::sin(pitch) * Vec3::UnitZ(),
+          .up = std::sin(pitch) * aft + std::cos(pitch) * Vec3::UnitZ(),
+          .chord = stations_.chord(at) * R};
+}
+
+TriangleSurface Blades::local_surface() const {
+  SurfaceBuilder builder(rotor_.spin() > 0);
+  const int n = static_cast<int>(upper_.size()) - 1;
+  std::vector<std::vector<int>> rings;  // over the upper side to the leading edge and back along the lower side
+  for (const double f : spanwise_.fractions(refine_)) {
+    const Section s = section(first_radius_ + f * spanwise_.length);
+    auto& ring = rings.emplace_back();
+    for (int i = n; i > 0; --i) ring.push_back(builder.add(s.at(upper_[i])));
+    for (int i = 0; i <= n; ++i) ring.push_back(builder.add(s.at(lower_[i])));
+    ring.push_back(ring.front());
+    if (rings.size() > 1) builder.band(rings[rings.size() - 2], ring);
+  }
+  for (const bool tip : {false, true}) {
+    const std::vector<int>& ring = tip ? rings.back() : rings.front();
+    const double bulge = rotor_.blade.tip == "rounded" ? (tip ? 1 : -1) : 0;
+    std::vector<int> before = {ring[n]};
+    for (int i = 1; i <= n; ++i) {
+      const int cells = i == n ? 1 : across_;  // the trailing edge is one cell thick
+      const auto column = builder.bridge(ring[n - i], ring[n + i], cells, bulge * Vec3::UnitX());
+      tip ? builder.band(before, column) : builder.band(column, before);
+      before = column;
+    }
+  }
+  return builder.take();
+}
+
+TriangleSurface Blades::surface(int blade) const {
+  TriangleSurface surface = local_surface();
+  const Eigen::Isometry3d from_blade = pose(blade);
+  for (Vec3& p : surface.points) p = from_blade * p;
+  return surface;
+}
+
+double Blades::size(const Vec3& point) const {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Eigen::Isometry3d& to_blade : to_blade_) {
+    const Vec3 p = to_blade * point;
+    const double radius = std::clamp(p.x(), first_radius_, last_radius_);
+    const Section s = section(radius);
+    const double x = std::clamp((p - s.quarter_chord).dot(s.back) / s.chord + 0.25, 0.0, 1.0);
+    const double distance = (p - s.at({x, 0})).norm();
+    const double along = std::min(chordwise_.size(x * chordwise_.length), rotor_.blade.trailing_edge_thickness + rotor_.size.growth * (1 - x));
+    const double here = std::sqrt(along * s.chord * spanwise_.size(radius - first_radius_));
+    smallest = std::min(smallest, here + rotor_.size.growth * distance);
+  }
+  return smallest;
+}
+
+}  // namespace windhover::geometry

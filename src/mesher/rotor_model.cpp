@@ -1,0 +1,145 @@
+#include "mesher/rotor_model.h"
+
+#include <gmsh.h>
+
+#include <numeric>
+#include <set>
+
+#include "geometry/blade.h"
+#include "geometry/size_field.h"
+
+namespace windhover::mesher {
+namespace {
+
+using geometry::RotorOptions;
+using geometry::Vec3;
+
+constexpr double kTurn = 2 * M_PI;
+
+/// The volume's surfaces alone: volumes are made of these and of the blades' triangles, which OpenCASCADE does not know.
+std::vector<int> keep_surfaces(int volume) {
+  gmsh::model::occ::synchronize();
+  gmsh::vectorpair boundary;
+  gmsh::model::getBoundary({{3, volume}}, boundary, true, false);
+  gmsh::model::occ::remove({{3, volume}});
+  gmsh::model::occ::synchronize();
+  std::vector<int> surfaces;
+  for (const auto& [dimension, tag] : boundary) surfaces.push_back(tag);
+  return surfaces;
+}
+
+int add_cylinder(const RotorOptions& rotor, double radius, double from, double to) {
+  const Vec3 axis = rotor.axis.normalized(), begin = rotor.center_m + from * axis, along = (to - from) * axis;
+  return gmsh::model::occ::addCylinder(begin.x(), begin.y(), begin.z(), along.x(), along.y(), along.z(), radius);
+}
+
+/// turn: so that the seams and meshes of two copies are not in the same place.
+std::vector<int> add_zone_surface(const RotorOptions& rotor, double turn) {
+  const int volume = add_cylinder(rotor, rotor.zone.radius_m, rotor.zone.from_m, rotor.zone.to_m);
+  const Vec3 &c = rotor.center_m, &a = rotor.axis;
+  gmsh::model::occ::rotate({{3, volume}}, c.x(), c.y(), c.z(), a.x(), a.y(), a.z(), turn);
+  return keep_surfaces(volume);
+}
+
+std::vector<int> add_hub(const RotorOptions& rotor) {
+  const int volume = add_cylinder(rotor, rotor.hub.radius_m, rotor.hub.from_m, rotor.hub.to_m);
+  if (rotor.hub.rounding_m == 0) return keep_surfaces(volume);
+  gmsh::model::occ::synchronize();
+  gmsh::vectorpair surfaces, curves;
+  gmsh::model::getBoundary({{3, volume}}, surfaces, false, false);
+  gmsh::model::getBoundary(surfaces, curves, false, false);
+  std::set<int> rims;  // each belongs to two surfaces
+  for (const auto& [dimension, tag] : curves) {
+    std::string type;
+    gmsh::model::getType(dimension, tag, type);
+    if (type == "Circle") rims.insert(tag);
+  }
+  gmsh::vectorpair rounded;
+  gmsh::model::occ::fillet({volume}, {rims.begin(), rims.end()}, {rotor.hub.rounding_m}, rounded);
+  return keep_surfaces(rounded.front().second);
+}
+
+/// nodes_before: in the blades so far; no other surface has nodes yet.
+int add_blade(const geometry::TriangleSurface& blade, size_t nodes_before) {
+  const int surface = gmsh::model::addDiscreteEntity(2);
+  std::vector<size_t> nodes(blade.points.size()), corners;
+  std::iota(nodes.begin(), nodes.end(), nodes_before + 1);
+  std::vector<double> coordinates;
+  for (const Vec3& p : blade.points) coordinates.insert(coordinates.end(), p.begin(), p.end());
+  gmsh::model::mesh::addNodes(2, surface, nodes, coordinates);
+  for (const auto& triangle : blade.triangles)
+    for (const int corner : triangle) corners.push_back(nodes[corner]);
+  constexpr int triangle_type = 2;
+  gmsh::model::mesh::addElementsByType(surface, triangle_type, {}, corners);
+  return surface;
+}
+
+void name(int dimension, const std::vector<int>& tags, const std::string& text) {
+  const int group = gmsh::model::addPhysicalGroup(dimension, tags);
+  gmsh::model::setPhysicalName(dimension, group, text);
+}
+
+std::vector<int> joined(std::vector<int> a, const std::vector<int>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// The surfaces of one rotor, before volumes are made of them.
+struct RotorSurfaces {
+  std::vector<int> inner, outer, hub, blades;
+};
+
+RotorSurfaces add_surfaces(const RotorOptions& rotor) {
+  RotorSurfaces s{add_zone_surface(rotor, 0), add_zone_surface(rotor, 0.3 * kTurn), {}, {}};
+  if (rotor.hub.radius_m > 0) s.hub = add_hub(rotor);
+  return s;
+}
+
+void add_volume(const RotorOptions& rotor, const RotorSurfaces& s) {
+  std::vector<int> loops = {gmsh::model::geo::addSurfaceLoop(s.inner)};
+  if (!s.hub.empty()) loops.push_back(gmsh::model::geo::addSurfaceLoop(s.hub));
+  for (const int blade : s.blades) loops.push_back(gmsh::model::geo::addSurfaceLoop({blade}));
+  const int volume = gmsh::model::geo::addVolume(loops);
+  gmsh::model::geo::synchronize();
+  name(3, {volume}, rotor.name);
+  name(2, s.blades, rotor.name + "_blades");
+  if (!s.hub.empty()) name(2, s.hub, rotor.name + "_hub");
+  name(2, joined(s.inner, s.outer), rotor.name + "_slide");
+}
+
+}  // namespace
+
+void mesh_rotors(const geometry::GeometryOptions& geometry) {
+  gmsh::model::add("rotors");
+  std::vector<RotorSurfaces> surfaces;
+  for (const RotorOptions& rotor : geometry.rotor) surfaces.push_back(add_surfaces(rotor));
+  const auto& far = geometry.farfield;
+  const std::vector<int> ball = keep_surfaces(
+      gmsh::model::occ::addSphere(far.center_m.x(), far.center_m.y(), far.center_m.z(), far.radius_m));
+  size_t nodes = 0;
+  for (size_t i = 0; i < surfaces.size(); ++i) {
+    const geometry::Blades blades(geometry.rotor[i], geometry.refine);
+    for (int k = 0; k < geometry.rotor[i].blade.count; ++k) {
+      const auto blade = blades.surface(k);
+      surfaces[i].blades.push_back(add_blade(blade, nodes));
+      nodes += blade.points.size();
+    }
+  }
+  std::vector<int> loops = {gmsh::model::geo::addSurfaceLoop(ball)};
+  for (const RotorSurfaces& s : surfaces) loops.push_back(gmsh::model::geo::addSurfaceLoop(s.outer));
+  const int outer = gmsh::model::geo::addVolume(loops);
+  gmsh::model::geo::synchronize();
+  for (size_t i = 0; i < surfaces.size(); ++i) add_volume(geometry.rotor[i], surfaces[i]);
+  name(3, {outer}, "outer");
+  name(2, ball, "farfield");
+  const geometry::SizeField size(geometry);
+  gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double z) { return size({x, y, z}); });
+  gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);  // blades' short edges are not for the volume
+  constexpr int hxt = 10;  // leaves far fewer flat cells at the blades than the others
+  gmsh::option::setNumber("Mesh.Algorithm3D", hxt);
+  gmsh::option::setNumber("General.NumThreads", 1);  // the same mesh every time
+  gmsh::model::mesh::generate(3);
+  gmsh::model::mesh::removeSizeCallback();
+}
+
+}  // namespace windhover::mesher
