@@ -221,19 +221,22 @@ void EulerOperator::prepare(Vec q, const Frames& frames) {
   frames_ = frames;
 }
 
+void EulerOperator::sum_rates(const Frames& frames, FluxKernels::Sum interior, BoundaryKernels::Sum boundary) {
+  std::fill(rates_.begin(), rates_.end(), Row{});
+  const auto between_cells = [&](const FaceInput& in, const mesh::FaceBlock* blocks, int n) {
+    interior(in, blocks, n, rates_.data());
+  };
+  for_each_interface(frames, between_cells);
+  for_each_group(frames, between_cells,
+                 [&](const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int n, int) {
+                   boundary(in, kind, blocks, n, rates_.data());
+                 });
+}
+
 void EulerOperator::residual(Vec q, const Frames& frames, Vec out, const Combination& combination) {
   prepare(q, frames);
-  std::fill(rates_.begin(), rates_.end(), Row{});
   const int r = static_cast<int>(model_.reconstruction);
-  const auto interior = [&](const FaceInput& in, const mesh::FaceBlock* blocks, int n) {
-    model_.flux->residual[r](in, blocks, n, rates_.data());
-  };
-  for_each_interface(frames, interior);
-  for_each_group(
-      frames, interior,
-      [&](const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int n, int) {
-        kBoundaryKernels.residual[r](in, kind, blocks, n, rates_.data());
-      });
+  sum_rates(frames, model_.flux->residual[r], kBoundaryKernels.residual[r]);
   store_rates(q, out, combination);
 }
 
@@ -248,17 +251,8 @@ void EulerOperator::linearize(Vec q, const Frames& frames) {
 void EulerOperator::derivative(Vec dq, Vec out, const Combination& combination) {
   load_cells(base_, frames_, &dq, d_cells_);
   update_gradients(d_cells_, d_gradients_);
-  std::fill(rates_.begin(), rates_.end(), Row{});
   const int r = static_cast<int>(model_.reconstruction);
-  const auto interior = [&](const FaceInput& in, const mesh::FaceBlock* blocks, int n) {
-    model_.flux->derivative[r](in, blocks, n, rates_.data());
-  };
-  for_each_interface(frames_, interior);
-  for_each_group(
-      frames_, interior,
-      [&](const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int n, int) {
-        kBoundaryKernels.derivative[r](in, kind, blocks, n, rates_.data());
-      });
+  sum_rates(frames_, model_.flux->derivative[r], kBoundaryKernels.derivative[r]);
   store_rates(dq, out, combination);
 }
 

@@ -2,7 +2,6 @@
 // and the loads on the boundaries. Nondimensional throughout.
 #pragma once
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -100,6 +99,7 @@ class EulerOperator {
     for (size_t i = 0; i < blocks.size(); ++i)
       visit(face_input(frames[sliding_.frame_zone(i)]), blocks[i].data(), static_cast<int>(blocks[i].size()));
   }
+  void sum_rates(const Frames& frames, FluxKernels::Sum interior, BoundaryKernels::Sum boundary);
   void store_rates(Vec x, Vec out, const Combination& combination) const;
   void prepare(Vec q, const Frames& frames);
 

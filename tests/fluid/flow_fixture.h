@@ -62,4 +62,21 @@ inline double distance(Vec a, Vec b, NormType type = NORM_2) {
   return norm(d, type);
 }
 
+/// How far the exact derivative along noise is from central differences, relative.
+inline double derivative_error(EulerOperator& euler, Vec q, const Frames& frames) {
+  VecHandle dq = euler.make_vector(), exact = euler.make_vector(), plus = euler.make_vector(),
+            minus = euler.make_vector(), moved = euler.make_vector();
+  add_noise(euler, 1.0, dq);
+  euler.linearize(q, frames);
+  euler.derivative(dq, exact);
+  const double h = 1e-6;
+  petsc(VecWAXPY(moved, h, dq, q));
+  euler.residual(moved, frames, plus);
+  petsc(VecWAXPY(moved, -h, dq, q));
+  euler.residual(moved, frames, minus);
+  petsc(VecAXPY(plus, -1, minus));
+  petsc(VecScale(plus, 0.5 / h));
+  return distance(plus, exact) / norm(exact);
+}
+
 }  // namespace windhover::fluid
