@@ -131,7 +131,7 @@ TEST_CASE("wrong cases: the message names place, key, value and what is allowed"
   CHECK(error_of("") == "--set : expected key=value");
   CHECK(error_of("fluid.gama=2") == "--set fluid.gama=2: fluid.gama: unknown key (did you mean \"gamma\"?)");
   CHECK_THAT(error_of("fluidd.gamma=2"), Contains("fluidd: unknown section (did you mean \"fluid\"?)"));
-  CHECK_THAT(error_of("rotor=[]"), Contains("rotor: unknown section"));
+  CHECK_THAT(error_of("propeller=[]"), Contains("propeller: unknown section"));
   CHECK_THAT(error_of("fluid.gamma=0.5"), Contains("fluid.gamma = 0.5: must be > 1"));
   CHECK_THAT(error_of("fluid.gamma=x"), Contains("fluid.gamma = \"x\": expected a number"));
   CHECK_THAT(error_of("fluid.gamma=nan"), Contains("must be finite"));
@@ -152,7 +152,7 @@ TEST_CASE("wrong cases: the message names place, key, value and what is allowed"
   CHECK_THAT(error_of("body.moment_point_m=[1,2]"), Contains("expected three numbers"));
   CHECK_THAT(error_of("body.walls=[\"hul\"]"), Contains("\"hul\" is not a wall") && Contains("did you mean \"hull\"?"));
   CHECK_THAT(error_of("fluid.boundary.outer=far"), Contains("must be one of \"wall\", \"farfield\", \"symmetry\""));
-  CHECK_THAT(error_of("mesh.geometry="), Contains("one of mesh.file and mesh.geometry is needed"));
+  CHECK_THAT(error_of("mesh.geometry="), Contains("one of mesh.file, mesh.geometry and a [[rotor]] with blades is needed"));
   CHECK_THAT(error_of("mesh.parameters.n=many"), Contains("mesh.parameters.n = \"many\": expected a number"));
 }
 
