@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 from windhover import check
 
 SPAN = 0.01
-# one cycle in order: four points with rising incidence, beginning on the way up
+# one cycle in order
 ALPHA = np.array([5.95, 6.97, 6.57, 5.11, 3.49, 2.43, 2.67, 4.28])
 LIFT = np.array([0.7502, 0.9064, 0.8480, 0.6985, 0.5402, 0.4013, 0.3876, 0.5433])
 MOMENT = np.array([0.0168, 0.0297, 0.0378, 0.0333, 0.0215, 0.0111, 0.0050, 0.0048])
@@ -41,7 +41,7 @@ class Cycle:
         phase = np.where(rising, quarter, 0.5 - quarter) % 1
         order = np.argsort(self.turns[:-1] % 1)
         turns = self.turns[:-1][order] % 1
-        return (np.interp(phase, turns, values[:-1][order], period=1) for values in (self.lift, self.moment))
+        return [np.interp(phase, turns, values[:-1][order], period=1) for values in (self.lift, self.moment)]
 
 
 def plot(cycles, file):
@@ -56,6 +56,14 @@ def plot(cycles, file):
     figure.savefig(file, dpi=120)
 
 
+def write_points(cycles, file):
+    with open(file, "w") as table:
+        print("run,alpha_deg,lift_experiment,lift,moment_experiment,moment", file=table)
+        for name, cycle in cycles.items():
+            for row in zip(ALPHA, LIFT, cycle.at(ALPHA, RISING)[0], MOMENT, cycle.at(ALPHA, RISING)[1]):
+                print(name, *(f"{value:.4f}" for value in row), sep=",", file=table)
+
+
 def figures(runs, folder):
     values, cycles = {}, {name: Cycle(run) for name, run in runs.items()}
     for name, cycle in cycles.items():
@@ -64,10 +72,12 @@ def figures(runs, folder):
         values[f"lift_difference_{name}"] = float(np.abs(lift - LIFT).max())
         values[f"moment_difference_{name}"] = float(np.abs(moment - MOMENT).max())
         values[f"lift_mean_difference_{name}"] = float((lift - LIFT).mean())
+        values[f"lift_scatter_{name}"] = float(np.abs(lift - LIFT - (lift - LIFT).mean()).max())
         # area of the loop, positive when run through counter-clockwise as in the experiment
         values[f"loop_area_{name}"] = float(-np.trapz(cycle.lift, cycle.alpha))
         values[f"change_of_lift_{name}"] = float(np.abs(cycle.lift - before.lift).max())
     plot(cycles, folder / "loops.png")
+    write_points(cycles, folder / "points.csv")
     return values
 
 
