@@ -21,7 +21,7 @@ struct MeshOptions {
   double scale_m = 1;
   double refine = 1;
   geometry::FarfieldOptions farfield;
-  double min_dihedral_deg = 2, min_edge_m = 0;  ///< after load_case with rotors: min_edge_m follows from the smallest rotor
+  double min_dihedral_deg = 1, min_edge_m = 0;  ///< after load_case with rotors: min_edge_m follows from the smallest rotor
 };
 
 /// State on one side of the initial jump; the velocity is along the jump's direction.

@@ -17,7 +17,7 @@ void declare(V& v, MeshOptions& o) {
   v.key("min_dihedral_deg", o.min_dihedral_deg,
         {.doc = "`windhover mesh` refuses a mesh with a smaller angle between two faces of a cell", .min = 0});
   v.key("min_edge_m", o.min_edge_m,
-        {.doc = "and with a shorter edge; missing: 1e-4 of the smallest rotor's radius", .min = 0});
+        {.doc = "and with a shorter edge; missing: 1e-4 of the smallest rotor's radius, over refine", .min = 0});
   v.section("farfield", o.farfield, "The ball around the rotors.");
 }
 

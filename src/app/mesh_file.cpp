@@ -76,7 +76,9 @@ std::vector<std::string> mesher_command(const Case& c, const std::string& output
   return command;
 }
 
+/// No run may take the mesh; a made one stays under another name, to be looked at.
 void refuse(const Case& c, const char* what, const mesh::Worst& worst, const char* key, double limit) {
+  if (can_make_mesh(c)) fs::rename(c.mesh.file, c.mesh.file + ".refused");
   throw UserError("{}: {} {:.3g} at ({:.4g}, {:.4g}, {:.4g}) m is below {} = {:.3g}: Newton would stall", c.mesh.file, what,
                   worst.value, worst.place[0], worst.place[1], worst.place[2], key, limit);
 }

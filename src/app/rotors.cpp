@@ -39,7 +39,7 @@ void complete_rotors(Case& c) {
   }
   c.fluid.boundary.try_emplace("farfield", "farfield");
   if (c.mesh.farfield.size_m == 0) c.mesh.farfield.size_m = c.mesh.farfield.radius_m / 5;
-  if (c.mesh.min_edge_m == 0) c.mesh.min_edge_m = 1e-4 * smallest;
+  if (c.mesh.min_edge_m == 0) c.mesh.min_edge_m = 1e-4 * smallest / c.mesh.refine;
   if (c.mesh.file.empty() && c.mesh.geometry.empty())
     c.mesh.file = c.file.parent_path() / fmt::format("{}_refine{}.msh", c.name, c.mesh.refine);
 }

@@ -81,9 +81,10 @@ Airfoil read_airfoil(const std::string& file) {
 
 /// Opens the trailing edge by a wedge from the leading edge.
 void set_thickness(Airfoil& a, double thickness) {
-  const double more = (thickness - (a.upper.back().y() - a.lower.back().y())) / 2;
-  for (Vec2& p : a.upper) p.y() += more * p.x();
-  for (Vec2& p : a.lower) p.y() -= more * p.x();
+  const Vec2 middle = (a.upper.back() + a.lower.back()) / 2, half(0, thickness / 2);
+  const Vec2 up = middle + half - a.upper.back(), down = middle - half - a.lower.back();
+  for (Vec2& p : a.upper) p += p.x() * up;
+  for (Vec2& p : a.lower) p += p.x() * down;
 }
 
 }  // namespace
@@ -101,7 +102,7 @@ Airfoil make_airfoil(const std::string& name, double trailing_edge_thickness) {
     a = read_airfoil(name);
   }
   set_thickness(a, trailing_edge_thickness);
-  for (size_t i = 1; i < a.upper.size(); ++i)
+  for (size_t i = 1; i + 1 < a.upper.size(); ++i)
     if (a.upper[i].y() <= a.lower[i].y())
       throw UserError("airfoil \"{}\": its sides cross at x = {:.3g}", name, a.upper[i].x());
   return a;

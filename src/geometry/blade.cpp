@@ -64,15 +64,23 @@ Blades::Section Blades::section(double radius) const {
           .chord = stations_.chord(at) * R};
 }
 
+/// Not much shorter than the cells along the chord; the trailing edge is one cell thick.
+int Blades::cells_across(int i) const {
+  const double thickness = (upper_[i] - lower_[i]).norm(), along = (upper_[i] - upper_[i - 1]).norm();
+  return i + 1 == static_cast<int>(upper_.size()) ? 1 : std::clamp(static_cast<int>(std::lround(1.5 * thickness / along)), 1, across_);
+}
+
 TriangleSurface Blades::local_surface() const {
   SurfaceBuilder builder(rotor_.spin() > 0);
   const int n = static_cast<int>(upper_.size()) - 1;
+  const bool is_sharp = rotor_.blade.trailing_edge_thickness == 0;
   std::vector<std::vector<int>> rings;  // over the upper side to the leading edge and back along the lower side
   for (const double f : spanwise_.fractions(refine_)) {
     const Section s = section(first_radius_ + f * spanwise_.length);
     auto& ring = rings.emplace_back();
     for (int i = n; i > 0; --i) ring.push_back(builder.add(s.at(upper_[i])));
-    for (int i = 0; i <= n; ++i) ring.push_back(builder.add(s.at(lower_[i])));
+    for (int i = 0; i < n; ++i) ring.push_back(builder.add(s.at(lower_[i])));
+    if (!is_sharp) ring.push_back(builder.add(s.at(lower_[n])));
     ring.push_back(ring.front());
     if (rings.size() > 1) builder.band(rings[rings.size() - 2], ring);
   }
@@ -81,8 +89,8 @@ TriangleSurface Blades::local_surface() const {
     const double bulge = rotor_.blade.tip == "rounded" ? (tip ? 1 : -1) : 0;
     std::vector<int> before = {ring[n]};
     for (int i = 1; i <= n; ++i) {
-      const int cells = i == n ? 1 : across_;  // the trailing edge is one cell thick
-      const auto column = builder.bridge(ring[n - i], ring[n + i], cells, bulge * Vec3::UnitX());
+      const int cells = cells_across(i);
+      const auto column = i == n && is_sharp ? std::vector<int>{ring[0]} : builder.bridge(ring[n - i], ring[n + i], cells, bulge * Vec3::UnitX());
       tip ? builder.band(before, column) : builder.band(column, before);
       before = column;
     }
@@ -105,7 +113,9 @@ double Blades::size(const Vec3& point) const {
     const Section s = section(radius);
     const double x = std::clamp((p - s.quarter_chord).dot(s.back) / s.chord + 0.25, 0.0, 1.0);
     const double distance = (p - s.at({x, 0})).norm();
-    const double along = std::min(chordwise_.size(x * chordwise_.length), rotor_.blade.trailing_edge_thickness + rotor_.size.growth * (1 - x));
+    double along = chordwise_.size(x * chordwise_.length);
+    if (const double thickness = rotor_.blade.trailing_edge_thickness; thickness > 0)
+      along = std::min(along, thickness + rotor_.size.growth * (1 - x));
     const double here = std::sqrt(along * s.chord * spanwise_.size(radius - first_radius_));
     smallest = std::min(smallest, here + rotor_.size.growth * distance);
   }

@@ -38,6 +38,7 @@ class Blades {
     Vec3 at(const Vec2& p) const { return quarter_chord + chord * ((p.x() - 0.25) * back + p.y() * up); }
   };
   Section section(double radius) const;
+  int cells_across(int point) const;
   TriangleSurface local_surface() const;
   Eigen::Isometry3d pose(int blade) const;  ///< from the blade's frame
 
@@ -47,7 +48,7 @@ class Blades {
   std::vector<Vec2> upper_, lower_;  ///< points of the section from leading to trailing edge, in chords
   Grading chordwise_, spanwise_;     ///< the first along x in chords
   double first_radius_, last_radius_;
-  int across_;  ///< cells across the thickness at root and tip
+  int across_;  ///< cells across the thickness at root and tip, at most
   std::vector<Eigen::Isometry3d> to_blade_;
 };
 

@@ -21,7 +21,7 @@ void declare(V& v, BladeOptions& o) {
         {.doc = "naca and four digits, or a file of coordinates x y in chords: upper side from the trailing edge, "
                 "then the lower side"});
   v.key("trailing_edge_thickness", o.trailing_edge_thickness,
-        {.doc = "thickness of the trailing edge in chords", .min = 1e-3, .max = 0.1});
+        {.doc = "thickness of the trailing edge in chords; 0: sharp", .min = 0, .max = 0.1});
   v.key("tip", o.tip, {.doc = "how tip and root end", .choices = {"rounded", "flat"}});
   v.key("collective_deg", o.collective_deg, {.doc = "angle added to all of beta_deg"});
   v.key("precone_deg", o.precone_deg, {.doc = "angle of the blades above the plane of rotation", .min = -45, .max = 45});

@@ -15,7 +15,7 @@ struct BladeOptions {
   std::string stations;  ///< CSV file in place of the lists
   std::vector<double> r_over_R, c_over_R, beta_deg, sweep_over_R, offset_over_R;
   std::string airfoil = "naca0012";
-  double trailing_edge_thickness = 0.01;
+  double trailing_edge_thickness = 0;
   std::string tip = "rounded";
   double collective_deg = 0, precone_deg = 0;
 };

@@ -1,6 +1,8 @@
 // windhover-mesher GEOMETRY.toml MESH.msh: `windhover mesh` runs it. A program of its own because gmsh's licence is the GPL.
 #include <fmt/format.h>
 #include <gmsh.h>
+#include <sys/personality.h>
+#include <unistd.h>
 
 #include <exception>
 
@@ -8,11 +10,19 @@
 #include "io/options_reader.h"
 #include "mesher/rotor_model.h"
 
+/// gmsh's meshes depend on the addresses of its objects. Where the system refuses, meshes differ a little from run to run.
+void fix_addresses(char** argv) {
+  const int now = personality(0xffffffff);
+  if (now < 0 || (now & ADDR_NO_RANDOMIZE)) return;
+  if (personality(now | ADDR_NO_RANDOMIZE) >= 0 && (personality(0xffffffff) & ADDR_NO_RANDOMIZE)) execv("/proc/self/exe", argv);
+}
+
 int main(int argc, char** argv) {
   if (argc != 3) {
     fmt::print(stderr, "windhover-mesher GEOMETRY.toml MESH.msh\n");
     return 2;
   }
+  fix_addresses(argv);
   try {
     windhover::geometry::GeometryOptions geometry;
     windhover::io::read_options(windhover::io::read_toml(argv[1]), geometry);

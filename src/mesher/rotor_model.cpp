@@ -137,7 +137,7 @@ void mesh_rotors(const geometry::GeometryOptions& geometry) {
   gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);  // blades' short edges are not for the volume
   constexpr int hxt = 10;  // leaves far fewer flat cells at the blades than the others
   gmsh::option::setNumber("Mesh.Algorithm3D", hxt);
-  gmsh::option::setNumber("General.NumThreads", 1);  // the same mesh every time
+  gmsh::option::setNumber("Mesh.MaxNumThreads3D", 1);  // the same mesh every time
   gmsh::model::mesh::generate(3);
   gmsh::model::mesh::removeSizeCallback();
 }

@@ -1,0 +1,98 @@
+"""Rotors from a case to a mesh whose interfaces hold: test_rotors.py WINDHOVER [unittest arguments]."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+WINDHOVER = pathlib.Path(sys.argv.pop(1)).resolve()
+
+CASE = """
+[mesh]
+farfield = {radius_m = 6, size_m = 3}
+[[rotor]]
+name = "left"
+center_m = [-1.3, 0, 0]
+axis = [0.1, 1, 0]
+rpm = 1000
+[rotor.blade]
+count = 2
+radius_m = 1
+r_over_R = [0.25, 1]
+c_over_R = [0.2, 0.15]
+beta_deg = [20, 8]
+[rotor.hub]
+radius_m = 0.1
+from_m = -0.06
+to_m = 0.06
+rounding_m = 0.04
+[rotor.zone]
+radius_m = 1.2
+from_m = -0.3
+to_m = 0.3
+[rotor.size]
+leading_edge = 0.1
+trailing_edge = 0.1
+chord = 0.3
+span_m = 0.15
+interface_m = 0.4
+growth = 0.6
+[time]
+step_deg = 1
+steps = 1
+first_step_ratio = 0.01
+"""
+
+
+def second(case, name, x):
+    """The same rotor once more, turning the other way."""
+    rotor = case[case.index("[[rotor]]"):case.index("[time]")]
+    other = rotor.replace('"left"', f'"{name}"\ndirection = "clockwise"').replace("-1.3", str(x))
+    return case.replace("[time]", other + "[time]")
+
+
+class Rotors(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def run_program(self, command, case, *arguments):
+        (self.folder / "case.toml").write_text(case)
+        return subprocess.run([WINDHOVER, command, "case.toml", *arguments], cwd=self.folder, capture_output=True, text=True)
+
+    def check_error(self, result, *parts):
+        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        for part in parts:
+            self.assertIn(part, result.stderr)
+
+    def test_two_rotors(self):
+        case = second(CASE, "right", 1.3)
+        made = self.run_program("mesh", case)
+        self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
+        self.assertIn("zones: left right outer", made.stdout)
+        self.check_error(self.run_program("check", case, "--set", "rotor[0].blade.collective_deg=1"), "was made from other")
+        checked = self.run_program("check", case, "--set", "rotor[0].rpm=900")
+        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+        for patch in ("left_blades: wall", "left_hub: wall", "right_blades: wall", "right_slide: sliding", "farfield: farfield"):
+            self.assertIn(patch, checked.stdout)
+        run = self.run_program("run", case, "--out", "out")
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        effective = (self.folder / "out/case.toml").read_text()
+        self.assertNotIn("[[zone]]", effective)
+        again = self.run_program("check", effective)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        thrust = float((self.folder / "out/history.csv").read_text().splitlines()[-1].split(",")[15])
+        self.assertGreater(thrust, 0)
+
+    def test_errors(self):
+        self.check_error(self.run_program("mesh", second(CASE, "right", 1)), "case.toml:", "overlaps that of rotor")
+        self.check_error(self.run_program("mesh", CASE, "--set", "rotor[0].zone.radius_m=0.9"), "pokes through its zone")
+        self.check_error(self.run_program("mesh", CASE, "--set", "mesh.min_dihedral_deg=50"), "is below mesh.min_dihedral_deg")
+        self.check_error(self.run_program("run", CASE, "--set", "mesh.min_dihedral_deg=50"), "does not exist")
+        self.check_error(self.run_program("mesh", CASE, "--set", "mesh.farfield.radius_m=0"), "mesh.farfield.radius_m is needed")
+        self.check_error(self.run_program("check", CASE, "--set", "mesh.refine=0.9"), "does not exist; `windhover mesh`")
+
+
+if __name__ == "__main__":
+    unittest.main()
