@@ -1,5 +1,6 @@
 #include "fluid/flow_solver.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace windhover::fluid {
@@ -36,8 +37,11 @@ FlowSolver::FlowSolver(EulerOperator& euler, const FlowOptions& options)
   if (options_.scheme->implicit) newton_.emplace(euler, options.newton);
   state_.q = euler.make_vector();
   state_.previous = euler.make_vector();
-  stage_ = euler.make_vector();
   known_ = euler.make_vector();
+  for (int i = 0; i < options_.scheme->stages; ++i) {
+    const bool solved = options_.scheme->implicit ? options_.scheme->a[i][i] != 0 : i + 1 == options_.scheme->stages;
+    stages_.push_back(solved ? euler.make_vector() : VecHandle());
+  }
   const int kept = options_.scheme->stages - (options_.scheme->implicit ? 1 : 0);
   for (int j = 0; j < kept; ++j) rates_.push_back(euler.make_vector());
 }
@@ -100,61 +104,87 @@ void FlowSolver::explicit_state(const double* coefficients, int stages, double d
   petsc(VecAXPY(out, 1.0, state_.q));
 }
 
-/// Stage i into stage_; false when it failed.
-bool FlowSolver::solve_stage(const TimeScheme& scheme, int i, const FrameFunction& frames, double dt, StepReport& report) {
-  if (scheme.a[i][i] == 0) {
-    explicit_state(scheme.a[i], i, dt, stage_);
-    if (is_physical(stage_)) return true;
-    report.reason = "negative density or pressure in an explicit stage";
-    return false;
-  }
+/// Stage i of an implicit scheme; false unless it is converged.
+bool FlowSolver::solve_stage(const TimeScheme& scheme, int i, const FrameFunction& frames, int max_newton) {
+  const VecHandle& stage = stages_[stages_.size() - scheme.stages + i];
   StageEquation equation;
-  equation.combination = {1.0 / dt, scheme.a[i][i], known_};
-  equation.frames = frames(state_.time + scheme.c[i] * dt);
+  equation.combination = {1.0 / dt_, scheme.a[i][i], known_};
+  equation.frames = frames(state_.time + scheme.c[i] * dt_);
   petsc(VecSet(known_, 0.0));
   if (scheme.bdf2) {
-    const Bdf2Coefficients h = bdf2_coefficients(dt / state_.last_step);
+    const Bdf2Coefficients h = bdf2_coefficients(dt_ / state_.last_step);
     equation.combination.rate = h.a;
-    add_times_volume(euler_.mesh(), -h.h0 / dt, state_.q, known_);
-    add_times_volume(euler_.mesh(), -h.h1 / dt, state_.previous, known_);
+    add_times_volume(euler_.mesh(), -h.h0 / dt_, state_.q, known_);
+    add_times_volume(euler_.mesh(), -h.h1 / dt_, state_.previous, known_);
   } else {
-    add_times_volume(euler_.mesh(), -1.0 / dt, state_.q, known_);
+    add_times_volume(euler_.mesh(), -1.0 / dt_, state_.q, known_);
   }
   for (int j = 0; j < i; ++j)
     if (scheme.a[i][j] != 0) petsc(VecAXPY(known_, scheme.a[i][j], rates_[j]));
-  predict(scheme.c[i], dt, stage_);
-  const double reference = rate_norm();
-  report.stages.push_back(newton_->solve(equation, stage_, reference));
-  if (!report.stages.back().converged) report.reason = "Newton: " + report.stages.back().reason;
-  return report.stages.back().converged;
+  report_.stages.push_back(newton_->solve(equation, stage, reference_[i], max_newton));
+  const NewtonReport& newton = report_.stages.back();
+  reference_[i] = std::max(reference_[i], newton.iterations.front().residual);
+  report_.failed = report_.failed || newton.failed;
+  if (!newton.converged) report_.reason = "Newton: " + newton.reason;
+  const bool used_later = i + 1 < scheme.stages;
+  if (used_later && !report_.failed) euler_.residual(stage, equation.frames, rates_[i]);
+  return newton.converged;
+}
+
+void FlowSolver::begin(const FrameFunction& frames, double dt) {
+  const TimeScheme& scheme = current_scheme();
+  if (newton_ && (!report_.accepted || state_.step % options_.jacobian_lag == 0)) newton_->rebuild_preconditioner();
+  dt_ = dt;
+  report_ = {};
+  reference_.assign(scheme.stages, scheme.implicit ? rate_norm() : 0);
+  const bool starts_at_known = scheme.a[0][0] == 0;
+  if (starts_at_known) euler_.residual(state_.q, frames(state_.time), rates_[0]);
+  for (int i = starts_at_known ? 1 : 0; scheme.implicit && i < scheme.stages; ++i)
+    predict(scheme.c[i], dt, stages_[stages_.size() - scheme.stages + i]);
+}
+
+void FlowSolver::iterate_explicit(const TimeScheme& scheme, const FrameFunction& frames) {
+  const Vec stage = stages_.back();
+  for (int i = 1; i <= scheme.stages; ++i) {
+    explicit_state(i < scheme.stages ? scheme.a[i] : scheme.b, i, dt_, stage);
+    if (!is_physical(stage)) {
+      report_.failed = true;
+      report_.reason = "negative density or pressure in an explicit stage";
+      return;
+    }
+    if (i < scheme.stages) euler_.residual(stage, frames(state_.time + scheme.c[i] * dt_), rates_[i]);
+  }
+  report_.accepted = true;
+}
+
+const StepReport& FlowSolver::iterate(const FrameFunction& frames, int max_newton) {
+  const TimeScheme& scheme = current_scheme();
+  report_.accepted = report_.failed = false;
+  report_.reason.clear();
+  if (!scheme.implicit) {
+    iterate_explicit(scheme, frames);
+    return report_;
+  }
+  bool converged = true;
+  for (int i = scheme.a[0][0] == 0 ? 1 : 0; i < scheme.stages && !report_.failed; ++i)
+    converged = solve_stage(scheme, i, frames, max_newton) && converged;
+  report_.accepted = converged;
+  return report_;
+}
+
+void FlowSolver::accept() {
+  std::swap(state_.previous, state_.q);
+  petsc(VecCopy(stages_.back(), state_.q));
+  state_.time += dt_;
+  state_.last_step = dt_;
+  ++state_.step;
 }
 
 StepReport FlowSolver::advance(const FrameFunction& frames, double dt) {
-  const TimeScheme& scheme = current_scheme();
-  if (newton_ && state_.step % options_.jacobian_lag == 0) newton_->rebuild_preconditioner();
-  StepReport report;
-  for (int i = 0; i < scheme.stages; ++i) {
-    if (!solve_stage(scheme, i, frames, dt, report)) {
-      if (newton_) newton_->rebuild_preconditioner();
-      return report;
-    }
-    const bool used_later = !scheme.implicit || i + 1 < scheme.stages;
-    if (used_later) euler_.residual(stage_, frames(state_.time + scheme.c[i] * dt), rates_[i]);
-  }
-  if (!scheme.implicit) {
-    explicit_state(scheme.b, scheme.stages, dt, stage_);
-    if (!is_physical(stage_)) {
-      report.reason = "negative density or pressure after an explicit step";
-      return report;
-    }
-  }
-  std::swap(state_.previous, state_.q);
-  petsc(VecCopy(stage_, state_.q));
-  state_.time += dt;
-  state_.last_step = dt;
-  ++state_.step;
-  report.accepted = true;
-  return report;
+  begin(frames, dt);
+  iterate(frames, options_.newton.max_iterations);
+  if (report_.accepted) accept();
+  return report_;
 }
 
 }  // namespace windhover::fluid

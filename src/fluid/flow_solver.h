@@ -25,9 +25,10 @@ struct FlowOptions {
 };
 
 struct StepReport {
-  bool accepted = false;
+  bool accepted = false;  ///< every stage is converged
+  bool failed = false;    ///< more Newton iterations would not help
   std::string reason;
-  std::vector<NewtonReport> stages;  ///< implicit stages in order
+  std::vector<NewtonReport> stages;  ///< implicit stages in order, those of every iterate() one after the other
   int newton() const;
   int krylov() const;
 };
@@ -46,9 +47,21 @@ class FlowSolver {
   /// One step of size dt. Accepted: state() is the new one. Otherwise state() is unchanged and the reason is told.
   StepReport advance(const FrameFunction& frames, double dt);
 
+  /// The same in parts, for frames that depend on the flow: what is known at the start (the rate R(q_n), first guesses)
+  /// is computed once, then the step is solved again and again, each time from the last iterate on.
+  void begin(const FrameFunction& frames, double dt);
+  /// At most `max_newton` Newton iterations in each stage; frames must not change at the start of the step.
+  const StepReport& iterate(const FrameFunction& frames, int max_newton);
+  /// The latest iterate: what the state becomes if it is accepted.
+  Vec iterate() const { return stages_.back(); }
+  void accept();
+  /// Order in time of the step begun.
+  int order() const { return current_scheme().order; }
+
  private:
   const TimeScheme& current_scheme() const;
-  bool solve_stage(const TimeScheme& scheme, int i, const FrameFunction& frames, double dt, StepReport& report);
+  bool solve_stage(const TimeScheme& scheme, int i, const FrameFunction& frames, int max_newton);
+  void iterate_explicit(const TimeScheme& scheme, const FrameFunction& frames);
   void explicit_state(const double* coefficients, int stages, double dt, Vec out);
   void predict(double fraction, double dt, Vec out) const;
   bool is_physical(Vec q) const;
@@ -58,8 +71,12 @@ class FlowSolver {
   FlowOptions options_;
   std::optional<NewtonKrylov> newton_;  ///< implicit schemes only
   FlowState state_;
-  VecHandle stage_, known_;
-  std::vector<VecHandle> rates_;  ///< R_j of the stages that later ones need
+  VecHandle known_;
+  std::vector<VecHandle> stages_;  ///< iterates
+  std::vector<VecHandle> rates_;   ///< R_j of the stages that later ones need
+  std::vector<double> reference_;  ///< of each stage: what Newton's residual is compared with
+  double dt_ = 0;                  ///< of the step begun
+  StepReport report_;
 };
 
 }  // namespace windhover::fluid

@@ -70,7 +70,6 @@ NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options) :
   petsc(SNESSetJacobian(snes_, product_, for_preconditioner, form_jacobian, this));
   petsc(SNESSetType(snes_, SNESNEWTONLS));
   petsc(SNESSetConvergenceTest(snes_, test_convergence, this, nullptr));
-  petsc(SNESSetTolerances(snes_, 0, 0, 0, options_.max_iterations, PETSC_MAX_INT));
   petsc(SNESSetMaxLinearSolveFailures(snes_, options_.max_iterations));  // Newton judges, not the inner solve
   SNESLineSearch search = nullptr;
   petsc(SNESGetLineSearch(snes_, &search));
@@ -93,8 +92,10 @@ NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options) :
   petsc(SNESSetFromOptions(snes_));
 }
 
-NewtonReport NewtonKrylov::solve(const StageEquation& equation, Vec q, double reference) {
+NewtonReport NewtonKrylov::solve(const StageEquation& equation, Vec q, double reference, int max_iterations) {
   equation_ = &equation;
+  max_iterations_ = max_iterations;
+  petsc(SNESSetTolerances(snes_, 0, 0, 0, max_iterations, PETSC_MAX_INT));
   reference_ = reference;
   report_ = {};
   krylov_before_ = 0;
@@ -105,6 +106,7 @@ NewtonReport NewtonKrylov::solve(const StageEquation& equation, Vec q, double re
   SNESConvergedReason reason;
   petsc(SNESGetConvergedReason(snes_, &reason));
   report_.converged = reason > 0;
+  report_.failed = reason < 0 && reason != SNES_DIVERGED_MAX_IT;
   report_.reason = SNESConvergedReasons[reason];
   for (const auto& i : report_.iterations) report_.krylov += i.krylov;
   return report_;
@@ -181,7 +183,7 @@ PetscErrorCode NewtonKrylov::test_convergence(SNES snes, PetscInt iteration, Pet
       *reason = SNES_CONVERGED_FNORM_RELATIVE;
     else if (norm > 1e4 * std::max(self.report_.iterations.front().residual, self.reference_))
       *reason = SNES_DIVERGED_DTOL;
-    else if (iteration >= self.options_.max_iterations)
+    else if (iteration >= self.max_iterations_)
       *reason = SNES_DIVERGED_MAX_IT;
   });
 }

@@ -35,7 +35,8 @@ struct NewtonIteration {
 
 struct NewtonReport {
   bool converged = false;
-  std::string reason;  ///< PETSc's words
+  bool failed = false;  ///< not converged, and not for want of iterations
+  std::string reason;   ///< PETSc's words
   int krylov = 0;      ///< sum
   std::vector<NewtonIteration> iterations;  ///< entry 0: the starting residual
 };
@@ -50,7 +51,7 @@ class NewtonKrylov {
   void rebuild_preconditioner() { rebuild_ = true; }
 
   /// q: first guess in, solution out. Converged: |F| <= tolerance * max(|F(guess)|, reference), or at round-off.
-  NewtonReport solve(const StageEquation& equation, Vec q, double reference);
+  NewtonReport solve(const StageEquation& equation, Vec q, double reference, int max_iterations);
 
  private:
   static PetscErrorCode form_function(SNES, Vec x, Vec f, void* self);
@@ -70,6 +71,7 @@ class NewtonKrylov {
   double volume_norm_ = 0, surface_norm_ = 0;  ///< sizes of the terms, for the round-off floor
   const StageEquation* equation_ = nullptr;
   double reference_ = 0, target_ = 0;
+  int max_iterations_ = 0;
   double started_ = 0;
   int krylov_before_ = 0;
   bool rebuild_ = true;
