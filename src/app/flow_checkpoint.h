@@ -13,10 +13,12 @@ class FlowCheckpoint {
  public:
   FlowCheckpoint(const Case& c, const mesh::Mesh& mesh);
 
-  void write(const std::filesystem::path& directory, const fluid::FlowState& state, const fluid::Frames& frames) const;
+  /// `averages`: what the averages over revolutions have so far (RotorOutput), the same on all ranks.
+  void write(const std::filesystem::path& directory, const fluid::FlowState& state, const fluid::Frames& frames,
+             const std::vector<double>& averages) const;
 
-  /// The newest checkpoint of the results. UserError: none, cut short, or of another mesh or scheme.
-  void read(const std::filesystem::path& directory, fluid::FlowState& state) const;
+  /// The newest checkpoint of the results; returns its averages. UserError: none, cut short, or of another mesh or scheme.
+  std::vector<double> read(const std::filesystem::path& directory, fluid::FlowState& state) const;
 
  private:
   std::vector<double> rows_of(Vec q) const;

@@ -1,6 +1,6 @@
 // Rows of history.csv and solver.csv (columns: docs/results.md).
 #pragma once
-#include "app/scales.h"
+#include "app/rotor_loads.h"
 #include "fluid/flow_solver.h"
 #include "io/csv.h"
 
@@ -13,24 +13,27 @@ struct Attitude {
 };
 Attitude attitude(const mesh::Mat3& R);
 
-/// Force on the case's walls and its moment about a point (nondimensional, inertial), SI, inertial axes.
+/// Force on the case's walls, of one flux per patch, and its moment about a point (nondimensional, inertial), SI, inertial axes.
 struct Loads {
   Vec3 force_N = Vec3::Zero(), moment_Nm = Vec3::Zero();
 };
-Loads wall_loads(const Case& c, fluid::FlowSolver& solver, const fluid::Frames& frames, const Vec3& point);
+Loads wall_loads(const Case& c, const std::vector<mesh::Patch>& patches, const std::vector<fluid::PatchFlux>& fluxes,
+                 const Vec3& point);
 
 /// What an accepted step adds to the histories besides the state itself.
 struct StepRecord {
   fluid::StepReport report;
   double wall_s = 0;
+  std::vector<RotorLoads> rotors;  ///< of each with blades
 };
 
 class History {
  public:
   History(const Case& c, const std::filesystem::path& directory, MPI_Comm comm, std::optional<std::int64_t> last_step);
 
-  /// The row of the current state; returns the loads written.
-  Loads append(fluid::FlowSolver& solver, const mesh::FrameState& body, const fluid::Frames& frames, const StepRecord& record);
+  /// The row of the current state, with its fluxes; returns the loads written.
+  Loads append(fluid::FlowSolver& solver, const mesh::FrameState& body, const std::vector<fluid::PatchFlux>& fluxes,
+               const StepRecord& record);
 
  private:
   const Case& case_;

@@ -9,6 +9,7 @@
 #include "app/flow_setup.h"
 #include "app/history.h"
 #include "app/progress.h"
+#include "app/rotor_output.h"
 #include "app/summary.h"
 #include "app/zone_tree.h"
 #include "base/collective.h"
@@ -61,7 +62,7 @@ class Simulation {
     }
     if (!saved_) write_checkpoint();
     if (!signal) write_fields();
-    summary_.write(directory_, solver_, MPI_Wtime() - started_);
+    summary_.write(directory_, solver_, rotors_->summary(), MPI_Wtime() - started_);
     return signal ? 128 + signal : 0;
   }
 
@@ -76,19 +77,31 @@ class Simulation {
   void start(bool restart) {
     io::prepare_results(directory_, restart, mesh_.comm);
     std::optional<std::int64_t> from;
+    std::vector<double> averages;
     if (restart) {
-      checkpoint_.read(directory_, solver_.state());
+      averages = checkpoint_.read(directory_, solver_.state());
       from = solver_.state().step;
     } else {
       fluid::set_initial(euler_, frames(0), initial_state(case_), solver_.state().q);
     }
     history_.emplace(case_, directory_, mesh_.comm, from);
+    rotors_.emplace(case_, mesh_, directory_, from);
+    if (restart) rotors_->restore(averages);
     fields_.emplace(directory_, mesh_.comm, from);
     on_root(mesh_.comm, [this] { io::write_atomically(directory_ / "case.toml", effective_case(case_)); });
     summary_.start(solver_, MPI_Wtime() - started_);
     if (restart) return;
-    history_->append(solver_, zones_.body(0), frames(0), {});
+    append_history({});
     write_fields();
+  }
+
+  /// The row of the current state, and what else is written once a step.
+  Loads append_history(StepRecord record) {
+    const fluid::FlowState& state = solver_.state();
+    const fluid::Frames now = frames(state.time);
+    const auto fluxes = euler_.patch_fluxes(state.q, now);
+    record.rotors = rotors_->step(state.step, state.time * scales_.time(), fluxes, now);
+    return history_->append(solver_, zones_.body(state.time), fluxes, record);
   }
 
   /// One accepted step: the nominal one, or as much less as Newton's method needs.
@@ -109,7 +122,7 @@ class Simulation {
     }
     const double solved = MPI_Wtime();
     saved_ = false;
-    const Loads loads = history_->append(solver_, zones_.body(state.time), frames(state.time), {last_report_, solved - begin});
+    const Loads loads = append_history({last_report_, solved - begin, {}});
     summary_.step(last_report_, solver_.state(), loads, solved - begin);
     if (case_.output.fields_interval > 0 && state.step % case_.output.fields_interval == 0) write_fields();
     if (state.step % case_.output.checkpoint_interval == 0) write_checkpoint();
@@ -124,7 +137,7 @@ class Simulation {
   }
 
   void write_checkpoint() {
-    checkpoint_.write(directory_, solver_.state(), frames(solver_.state().time));
+    checkpoint_.write(directory_, solver_.state(), frames(solver_.state().time), rotors_->state());
     saved_ = true;
   }
 
@@ -150,6 +163,7 @@ class Simulation {
   long last_step_;
   double end_time_;  ///< nondimensional; infinite when the number of steps decides
   std::optional<History> history_;
+  std::optional<RotorOutput> rotors_;
   std::optional<io::FieldWriter> fields_;
   fluid::StepReport last_report_;
   bool saved_ = false;

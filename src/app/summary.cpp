@@ -38,7 +38,8 @@ void Summary::step(const fluid::StepReport& report, const fluid::FlowState& stat
   sum_.moment_Nm += loads.moment_Nm;
 }
 
-void Summary::write(const std::filesystem::path& directory, const fluid::FlowSolver& solver, double wall_s) const {
+void Summary::write(const std::filesystem::path& directory, const fluid::FlowSolver& solver, const nlohmann::ordered_json& rotors,
+                    double wall_s) const {
   int ranks = 1;
   MPI_Comm_size(mesh_.comm, &ranks);
   const long steps = solver.state().step - first_step_;
@@ -61,6 +62,7 @@ void Summary::write(const std::filesystem::path& directory, const fluid::FlowSol
                    {"steps", averaged_},
                    {"force_N", list(per_average * sum_.force_N)},
                    {"moment_Nm", list(per_average * sum_.moment_Nm)}};
+  if (!rotors.empty()) j["rotors"] = rotors;
   j["mass_drift"] = total_mass(mesh_, solver.state().q) / mass_ - 1;
   io::write_json(directory / "summary.json", j, mesh_.comm);
 }

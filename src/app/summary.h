@@ -1,6 +1,7 @@
 // summary.json: what a run did and what it cost.
 #pragma once
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "app/history.h"
 
@@ -14,7 +15,8 @@ class Summary {
   void step(const fluid::StepReport& report, const fluid::FlowState& state, const Loads& loads, double seconds);
   void rejected() { ++rejected_; }
   void output(double seconds) { output_s_ += seconds; }
-  void write(const std::filesystem::path& directory, const fluid::FlowSolver& solver, double wall_s) const;
+  void write(const std::filesystem::path& directory, const fluid::FlowSolver& solver, const nlohmann::ordered_json& rotors,
+             double wall_s) const;
 
  private:
   const Case& case_;

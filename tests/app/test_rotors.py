@@ -1,4 +1,7 @@
 """Rotors from a case to a mesh whose interfaces hold: test_rotors.py WINDHOVER [unittest arguments]."""
+import csv
+import json
+import math
 import pathlib
 import subprocess
 import sys
@@ -84,6 +87,47 @@ class Rotors(unittest.TestCase):
         self.assertEqual(again.returncode, 0, again.stderr)
         thrust = float((self.folder / "out/history.csv").read_text().splitlines()[-1].split(",")[15])
         self.assertGreater(thrust, 0)
+
+    def tables(self, name):
+        return {path.name: (self.folder / name / path.name).read_text() for path in (self.folder / name).glob("rotor_*.csv")}
+
+    def rows(self, path):
+        with open(self.folder / path) as file:
+            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+    def test_tables(self):
+        steps = ("--set", "time.step_deg=9", "--set", "time.start_steps=2", "--set", "time.first_step_ratio=0.1")
+        self.assertEqual(self.run_program("mesh", CASE).returncode, 0)
+        self.assertEqual(self.run_program("run", CASE, "--out", "whole", "--steps", "50", *steps).returncode, 0)
+        self.assertEqual(self.run_program("run", CASE, "--out", "parts", "--steps", "33", *steps).returncode, 0)
+        self.assertEqual(self.run_program("run", CASE, "--out", "parts", "--steps", "50", "--restart", *steps).returncode, 0)
+        self.assertEqual(self.tables("whole"), self.tables("parts"))
+
+        history = self.rows("whole/history.csv")
+        for row in history[1:]:
+            force = (0.1 * row["fx_N"] + row["fy_N"]) / math.hypot(0.1, 1)
+            moment = (0.1 * row["mx_Nm"] + row["my_Nm"] - 1.3 * row["fz_N"]) / math.hypot(0.1, 1)
+            self.assertAlmostEqual(row["rotor_left_thrust_N"], force, delta=1e-9 * abs(force))
+            self.assertAlmostEqual(row["rotor_left_torque_Nm"], -moment, delta=1e-9 * abs(row["mx_Nm"]) + 1e-9 * abs(moment))
+            self.assertGreater(row["rotor_left_torque_Nm"], 0)
+            self.assertAlmostEqual(row["rotor_left_rpm"], 1000, delta=1e-9)
+            self.assertAlmostEqual(row["rotor_left_CT"], row["rotor_left_thrust_N"] / (1.225 * (1000 / 60) ** 2 * 16), delta=1e-9)
+            turned = math.remainder(row["rotor_left_angle_deg"] - 6000 * row["time_s"], 360)
+            self.assertAlmostEqual(turned, 0, delta=1e-9)
+
+        revolution, = self.rows("whole/rotor_left_revolutions.csv")
+        inside = [row for row in history if row["time_s"] <= 0.06 + 1e-12]
+        mean = sum((b["time_s"] - a["time_s"]) * (a["rotor_left_thrust_N"] + b["rotor_left_thrust_N"]) / 2
+                   for a, b in zip(inside, inside[1:]))
+        last = next(row for row in history if row["time_s"] > 0.06 + 1e-12)
+        rest = 0.06 - inside[-1]["time_s"]
+        slope = (last["rotor_left_thrust_N"] - inside[-1]["rotor_left_thrust_N"]) / (last["time_s"] - inside[-1]["time_s"])
+        mean += rest * (inside[-1]["rotor_left_thrust_N"] + slope * rest / 2)
+        self.assertAlmostEqual(revolution["thrust_N"], mean / 0.06, delta=1e-9 * mean / 0.06)
+        self.assertAlmostEqual(revolution["time_s"], 0.06, delta=1e-12)
+        self.assertLess(abs(revolution["hub_thrust_N"]), 0.05 * revolution["thrust_N"])
+        summary = json.loads((self.folder / "whole/summary.json").read_text())
+        self.assertEqual(summary["rotors"]["left"]["latest_revolution"]["CT"], revolution["CT"])
 
     def test_errors(self):
         self.check_error(self.run_program("mesh", second(CASE, "right", 1)), "case.toml:", "overlaps that of rotor")
