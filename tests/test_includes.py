@@ -9,10 +9,11 @@ MAY_INCLUDE = {
     "fluid": {"base", "mesh"},
     "body": {"base"},
     "control": {"base"},
+    "coupling": {"base", "body", "control"},
     "io": {"base"},
     "geometry": {"base", "io"},
     "mesher": {"base", "io", "geometry"},
-    "app": {"base", "mesh", "fluid", "io", "geometry"},
+    "app": {"base", "mesh", "fluid", "body", "control", "coupling", "io", "geometry"},
 }
 
 source = pathlib.Path(sys.argv[1]) / "src"

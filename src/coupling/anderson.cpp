@@ -1,0 +1,95 @@
+// Anderson acceleration by KINSOL's fixed-point iteration (Walker & Ni, SIAM J. Numer. Anal. 49, 2011). KINSOL proposes
+// the loads; each call of its system function is one coupling iteration, and the judgement of when to stop is not
+// KINSOL's: the function then returns an error, which ends its loop.
+#include <kinsol/kinsol.h>
+#include <nvector/nvector_serial.h>
+
+#include <algorithm>
+#include <type_traits>
+
+#include "base/petsc.h"
+#include "coupling/scheme.h"
+
+namespace windhover::coupling {
+namespace {
+
+struct FreeVector {
+  void operator()(N_Vector v) const { N_VDestroy(v); }
+};
+using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, FreeVector>;
+struct FreeKinsol {
+  void operator()(void* memory) const { KINFree(&memory); }
+};
+
+Eigen::Map<VectorXd> values(N_Vector v) { return {N_VGetArrayPointer(v), NV_LENGTH_S(v)}; }
+
+void check(int flag) {
+  if (flag < 0) throw std::runtime_error(std::string("KINSOL: ") + KINGetReturnFlagName(flag));
+}
+
+/// What the system function needs; vectors in KINSOL are scaled.
+struct Problem {
+  FixedPoint& fixed_point;
+  VectorXd scale;
+  double relaxation;
+  bool stopped = false;
+  CallbackGuard guard = {};
+};
+
+int system_function(N_Vector x, N_Vector g, void* data) {
+  constexpr int kStop = -1;
+  Problem& problem = *static_cast<Problem*>(data);
+  const int failed = problem.guard.run([&] {
+    const auto answer = problem.fixed_point.evaluate(values(x).cwiseProduct(problem.scale), problem.relaxation);
+    problem.stopped = !answer;
+    if (answer) values(g) = answer->cwiseQuotient(problem.scale);
+  });
+  return failed || problem.stopped ? kStop : 0;
+}
+
+void no_message(int, const char*, const char*, char*, void*) {}
+
+class Anderson : public Scheme {
+ public:
+  Anderson(const CouplingOptions& options, int size, int motions)
+      : options_(options), context_(nullptr, [](SUNContext c) { SUNContext_Free(&c); }) {
+    SUNContext context = nullptr;
+    check(SUNContext_Create(nullptr, &context));
+    context_.reset(context);
+    x_.reset(N_VNew_Serial(size, context));
+    one_.reset(N_VNew_Serial(size, context));
+    N_VConst(1.0, one_.get());
+    kinsol_.reset(KINCreate(context));
+    check(KINSetNumMaxIters(kinsol_.get(), options.max_iterations));
+    // residuals vary in as many directions as the vehicle has motions; further columns would be linearly dependent
+    check(KINSetMAA(kinsol_.get(), std::clamp(motions, 1, options.columns)));
+    check(KINInit(kinsol_.get(), system_function, x_.get()));
+    check(KINSetDampingAA(kinsol_.get(), options.relaxation));
+    check(KINSetErrHandlerFn(kinsol_.get(), no_message, nullptr));
+    check(KINSetFuncNormTol(kinsol_.get(), 1e-300));  // the fixed point judges
+  }
+
+  void solve(VectorXd x, FixedPoint& fixed_point) override {
+    Problem problem{fixed_point, fixed_point.scale(), options_.relaxation};
+    check(KINSetUserData(kinsol_.get(), &problem));
+    values(x_.get()) = x.cwiseQuotient(problem.scale);
+    while (!problem.stopped) {  // KINSOL ends by itself only where x stands still while the flow is not yet solved
+      KINSol(kinsol_.get(), x_.get(), KIN_FP, one_.get(), one_.get());
+      problem.guard.rethrow();
+    }
+  }
+
+ private:
+  CouplingOptions options_;
+  std::unique_ptr<_SUNContext, void (*)(SUNContext)> context_;
+  Vector x_, one_;
+  std::unique_ptr<void, FreeKinsol> kinsol_;
+};
+
+}  // namespace
+
+std::unique_ptr<Scheme> make_anderson(const CouplingOptions& options, int size, int motions) {
+  return std::make_unique<Anderson>(options, size, motions);
+}
+
+}  // namespace windhover::coupling
