@@ -6,6 +6,7 @@
 
 #include "app/case_keys.h"
 #include "app/rotors.h"
+#include "app/vehicle.h"
 #include "base/errors.h"
 #include "base/version.h"
 #include "io/options_documenter.h"
@@ -105,6 +106,7 @@ void validate(const Case& c, const toml::table& file) {
     validate_direction(zone.axis, key + ".axis", file);
   }
   validate_rotors(c, file);
+  validate_vehicle(c, file);
   validate_time(c, file);
   constexpr double most_steps = 1e9;
   if (c.time.end_s && *c.time.end_s / step_seconds(c) > most_steps)

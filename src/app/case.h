@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "body/integrator.h"
+#include "body/vehicle_options.h"
+#include "control/control_options.h"
+#include "coupling/coupling_options.h"
 #include "geometry/rotor_options.h"
 #include "mesh/motion.h"
 
@@ -79,7 +83,24 @@ struct ZoneOptions {
 struct BodyOptions {
   std::vector<std::string> walls;  ///< after load_case: every wall when the file names none
   Vec3 moment_point_m = Vec3::Zero();
-  std::vector<MotionOptions> motion;
+  std::string kind = "prescribed";
+  std::vector<MotionOptions> motion;              ///< prescribed
+  Vec3 center_of_gravity_m = Vec3::Zero();        ///< this and the rest: dynamic
+  body::VehicleOptions vehicle;
+  body::IntegratorOptions integrator;
+};
+
+/// What the controller knows of a rotor of the body.
+struct RotorModelOptions {
+  std::string name;
+  std::optional<Vec3> position_m;
+  Vec3 thrust_axis = Vec3::UnitY();
+  double thrust_N_s2 = 0, torque_Nm_s2 = 0, min_speed_rad_s = 0, max_speed_rad_s = 0;
+};
+
+struct ControllerOptions {
+  control::ControllerOptions law;
+  std::vector<RotorModelOptions> rotor;
 };
 
 struct TimeOptions {
@@ -120,6 +141,8 @@ struct Case {
   BodyOptions body;
   std::vector<geometry::RotorOptions> rotor;
   std::vector<ZoneOptions> zone;  ///< after load_case: those of rotors as well
+  ControllerOptions controller;
+  coupling::CouplingOptions coupling;
   TimeOptions time;
   SolverOptions solver;
   OutputOptions output;

@@ -2,6 +2,9 @@
 #pragma once
 #include "app/case.h"
 #include "base/options.h"
+#include "body/vehicle_keys.h"
+#include "control/control_keys.h"
+#include "coupling/coupling_keys.h"
 #include "geometry/rotor_keys.h"
 
 namespace windhover::app {
@@ -96,7 +99,33 @@ template <class V>
 void declare(V& v, BodyOptions& o) {
   v.key("walls", o.walls, {.doc = "the walls whose loads are summed; when missing, every wall"});
   v.key("moment_point_m", o.moment_point_m, {.doc = "the point of the body that moments are taken about"});
-  v.tables("motion", o.motion, "Prescribed motion: elementary motions, the first outermost.");
+  v.key("kind", o.kind,
+        {.doc = "how the body moves: prescribed by [[body.motion]], or dynamic: under the loads of the air, gravity and its mount",
+         .choices = {"prescribed", "dynamic"}});
+  v.when("kind", o.kind, "prescribed",
+         [&] { v.tables("motion", o.motion, "Prescribed motion: elementary motions, the first outermost."); });
+  v.when("kind", o.kind, "dynamic", [&] {
+    v.key("center_of_gravity_m", o.center_of_gravity_m, {.doc = "the centre of gravity in the axes of the mesh"});
+    declare(v, o.vehicle);
+    v.section("integrator", o.integrator, "CVODE, which integrates body, motors and controller.");
+  });
+}
+
+template <class V>
+void declare(V& v, RotorModelOptions& o) {
+  v.key("name", o.name, {.doc = "the rotor of the body"});
+  v.key("position_m", o.position_m, {.doc = "its hub in the axes of the mesh; when missing, the point_m of the zone of that name"});
+  v.key("thrust_axis", o.thrust_axis, {.doc = "direction of its thrust in body axes, parallel to the spin axis; any length"});
+  v.key("thrust_N_s2", o.thrust_N_s2, {.doc = "thrust over the square of the speed in rad/s", .above = 0});
+  v.key("torque_Nm_s2", o.torque_Nm_s2, {.doc = "torque of the air over the square of the speed", .min = 0});
+  v.key("min_speed_rad_s", o.min_speed_rad_s, {.doc = "lowest speed to command", .min = 0});
+  v.key("max_speed_rad_s", o.max_speed_rad_s, {.doc = "highest speed to command", .above = 0});
+}
+
+template <class V>
+void declare(V& v, ControllerOptions& o) {
+  declare(v, o.law);
+  v.tables("rotor", o.rotor, "What a controller other than \"none\" knows of each of the body's rotors.");
 }
 
 template <class V>
@@ -176,6 +205,8 @@ void declare(V& v, Case& o) {
            "Rotors that `windhover mesh` makes. Each is a [[zone]] in the zone \"outer\", its walls are the surfaces name + "
            "\"_blades\" and name + \"_hub\", the ball is the surface \"farfield\".");
   v.tables("zone", o.zone, "Zones that turn inside others; the rest of the mesh moves with the body.");
+  v.section("controller", o.controller, "What commands the rotors of a dynamic body.");
+  v.section("coupling", o.coupling, "How a dynamic body and the air are brought together in a step.");
   v.section("time", o.time, "The discretisation in time.");
   v.section("solver", o.solver, "Newton's method and the linear solver of a time step.");
   v.section("output", o.output, "What is written, and where.");

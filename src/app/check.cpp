@@ -1,4 +1,5 @@
 // `windhover check`: everything but the steps.
+#include "app/flight.h"
 #include "app/flow_setup.h"
 #include "app/simulation.h"
 #include "app/zone_tree.h"
@@ -32,7 +33,7 @@ int check_simulation(const Case& c) {
   const mesh::Mesh& mesh = zoned.mesh;
   fluid::EulerOperator euler(mesh, flow_model(c), std::move(zoned.interfaces));
   fluid::FlowSolver solver(euler, flow_options(c));
-  const fluid::Frames frames = ZoneTree(c, mesh).frames(0);
+  const fluid::Frames frames = initial_frames(c, ZoneTree(c, mesh));
   const Vec q = solver.state().q;
   fluid::set_initial(euler, frames, initial_state(c), q);
   const mesh::Quality quality = mesh::measure_quality(mesh);

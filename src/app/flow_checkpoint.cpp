@@ -27,7 +27,7 @@ void FlowCheckpoint::set_items(std::span<const double> rows, Vec q) const {
 }
 
 void FlowCheckpoint::write(const std::filesystem::path& directory, const fluid::FlowState& state,
-                           const fluid::Frames& frames, const std::vector<double>& averages) const {
+                           const fluid::Frames& frames, const Memory& memory) const {
   const Scales s(case_.fluid);
   io::CheckpointWriter out(directory, state.step, mesh_.comm);
   out.attribute("mesh_hash", mesh_.hash);
@@ -59,14 +59,15 @@ void FlowCheckpoint::write(const std::filesystem::path& directory, const fluid::
   out.array("centroid_m", order_.to_rows(centroid, 3), 3);
   out.array("zone", order_.to_rows(zone, 1), 1);
   out.array("volume_m3", order_.to_rows(volume, 1), 1);
-  if (!averages.empty()) {
-    const std::span<const double> all = averages;
-    out.array("averages", rank_of(mesh_.comm) == 0 ? all : all.first(0), 1);
-  }
+  const auto remember = [&](const char* name, std::span<const double> all) {
+    if (!all.empty()) out.array(name, rank_of(mesh_.comm) == 0 ? all : all.first(0), 1);
+  };
+  remember("averages", memory.averages);
+  remember("vehicle", memory.vehicle);
   out.finish();
 }
 
-std::vector<double> FlowCheckpoint::read(const std::filesystem::path& directory, fluid::FlowState& state) const {
+Memory FlowCheckpoint::read(const std::filesystem::path& directory, fluid::FlowState& state) const {
   const auto path = io::newest_checkpoint(directory);
   if (!path) throw UserError("{}: no checkpoint to restart from", (directory / "checkpoint").string());
   const io::CheckpointReader in(*path, mesh_.comm);
@@ -81,8 +82,10 @@ std::vector<double> FlowCheckpoint::read(const std::filesystem::path& directory,
   };
   load("q", state.q);
   load("q_previous", state.previous);
-  if (!in.has_array("averages")) return {};
-  return in.array("averages", 1, 0, in.rows("averages"));
+  const auto recall = [&](const char* name) {
+    return in.has_array(name) ? in.array(name, 1, 0, in.rows(name)) : std::vector<double>();
+  };
+  return {recall("averages"), recall("vehicle")};
 }
 
 }  // namespace windhover::app

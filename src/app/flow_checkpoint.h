@@ -8,17 +8,22 @@
 
 namespace windhover::app {
 
+/// What else a run must remember, the same on every rank.
+struct Memory {
+  std::vector<double> averages;  ///< of the rotors
+  std::vector<double> vehicle;   ///< body, motors, controller and coupling
+};
+
 /// Cells are stored in the mesh file's order, so a run may continue on any number of ranks.
 class FlowCheckpoint {
  public:
   FlowCheckpoint(const Case& c, const mesh::Mesh& mesh);
 
-  /// `averages`: what the averages over revolutions have so far (RotorOutput), the same on all ranks.
   void write(const std::filesystem::path& directory, const fluid::FlowState& state, const fluid::Frames& frames,
-             const std::vector<double>& averages) const;
+             const Memory& memory) const;
 
-  /// The newest checkpoint of the results; returns its averages. UserError: none, cut short, or of another mesh or scheme.
-  std::vector<double> read(const std::filesystem::path& directory, fluid::FlowState& state) const;
+  /// The newest checkpoint of the results. UserError: none, cut short, or of another mesh or scheme.
+  Memory read(const std::filesystem::path& directory, fluid::FlowState& state) const;
 
  private:
   std::vector<double> rows_of(Vec q) const;

@@ -70,8 +70,8 @@ Loads History::append(fluid::FlowSolver& solver, const mesh::FrameState& f,
     const double ct = thrust_coefficient(r.thrust_N, r.rpm, case_.fluid.density_kg_m3, rotor.blade.radius_m);
     row.insert(row.end(), {r.rpm, r.angle_deg, r.thrust_N, r.torque_Nm, ct});
   }
-  row.insert(row.end(), {double(record.report.newton()), double(record.report.krylov()), 0, state.last_step * s.time(),
-                         record.wall_s});
+  row.insert(row.end(), {double(record.report.newton()), double(record.report.krylov()), double(record.coupling_iterations),
+                         state.last_step * s.time(), record.wall_s});
   history_.append(row);
   for (size_t stage = 0; stage < record.report.stages.size(); ++stage) {
     const auto& iterations = record.report.stages[stage].iterations;

@@ -25,6 +25,7 @@ struct StepRecord {
   fluid::StepReport report;
   double wall_s = 0;
   std::vector<RotorLoads> rotors;  ///< of each with blades
+  int coupling_iterations = 0;
 };
 
 class History {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "app/flight.h"
 #include "app/flow_checkpoint.h"
 #include "app/flow_fields.h"
 #include "app/flow_setup.h"
@@ -67,7 +68,9 @@ class Simulation {
   }
 
  private:
-  fluid::Frames frames(double time) const { return zones_.frames(time); }
+  /// Frames at the current state.
+  fluid::Frames frames() const { return flight_ ? flight_->frames() : zones_.frames(solver_.state().time); }
+  mesh::FrameState body() const { return flight_ ? flight_->body() : zones_.body(solver_.state().time); }
 
   bool finished() const {
     const fluid::FlowState& s = solver_.state();
@@ -77,16 +80,20 @@ class Simulation {
   void start(bool restart) {
     io::prepare_results(directory_, restart, mesh_.comm);
     std::optional<std::int64_t> from;
-    std::vector<double> averages;
+    Memory memory;
     if (restart) {
-      averages = checkpoint_.read(directory_, solver_.state());
+      memory = checkpoint_.read(directory_, solver_.state());
       from = solver_.state().step;
     } else {
-      fluid::set_initial(euler_, frames(0), initial_state(case_), solver_.state().q);
+      fluid::set_initial(euler_, initial_frames(case_, zones_), initial_state(case_), solver_.state().q);
     }
+    if (is_dynamic(case_)) flight_.emplace(case_, solver_, zones_);
+    if (flight_ && restart) flight_->restore(memory.vehicle);
+    if (flight_ && !restart) flight_->start();
+    if (flight_) flight_->open(directory_, from);
     history_.emplace(case_, directory_, mesh_.comm, from);
     rotors_.emplace(case_, mesh_, directory_, from);
-    if (restart) rotors_->restore(averages);
+    if (restart) rotors_->restore(memory.averages);
     fields_.emplace(directory_, mesh_.comm, from);
     on_root(mesh_.comm, [this] { io::write_atomically(directory_ / "case.toml", effective_case(case_)); });
     summary_.start(solver_, MPI_Wtime() - started_);
@@ -98,10 +105,10 @@ class Simulation {
   /// The row of the current state, and what else is written once a step.
   Loads append_history(StepRecord record) {
     const fluid::FlowState& state = solver_.state();
-    const fluid::Frames now = frames(state.time);
+    const fluid::Frames now = frames();
     const auto fluxes = euler_.patch_fluxes(state.q, now);
     record.rotors = rotors_->step(state.step, state.time * scales_.time(), fluxes, now);
-    return history_->append(solver_, zones_.body(state.time), fluxes, record);
+    return history_->append(solver_, body(), fluxes, record);
   }
 
   /// One accepted step: the nominal one, or as much less as Newton's method needs.
@@ -115,18 +122,28 @@ class Simulation {
     if (end_time_ - state.time < dt * (1 - 1e-9)) dt = end_time_ - state.time;
     const double smallest = case_.time.first_step_ratio * nominal_step_ * std::pow(0.5, case_.solver.max_halvings);
     for (;; dt /= 2) {
-      last_report_ = solver_.advance([this](double t) { return frames(t); }, dt);
+      try_step(dt);
       if (last_report_.accepted) break;
       summary_.rejected();
       if (dt / 2 < smallest) give_up(dt);
     }
     const double solved = MPI_Wtime();
     saved_ = false;
-    const Loads loads = append_history({last_report_, solved - begin, {}});
+    const Loads loads = append_history({last_report_, solved - begin, {}, coupling_iterations_});
     summary_.step(last_report_, solver_.state(), loads, solved - begin);
     if (case_.output.fields_interval > 0 && state.step % case_.output.fields_interval == 0) write_fields();
     if (state.step % case_.output.checkpoint_interval == 0) write_checkpoint();
     summary_.output(MPI_Wtime() - solved);
+  }
+
+  void try_step(double dt) {
+    if (!flight_) {
+      last_report_ = solver_.advance([this](double t) { return zones_.frames(t); }, dt);
+      return;
+    }
+    Flight::Result result = flight_->advance(dt);
+    last_report_ = std::move(result.flow);
+    coupling_iterations_ = result.iterations;
   }
 
   [[noreturn]] void give_up(double dt) {
@@ -137,7 +154,7 @@ class Simulation {
   }
 
   void write_checkpoint() {
-    checkpoint_.write(directory_, solver_.state(), frames(solver_.state().time), rotors_->state());
+    checkpoint_.write(directory_, solver_.state(), frames(), {rotors_->state(), flight_ ? flight_->state() : std::vector<double>()});
     saved_ = true;
   }
 
@@ -145,7 +162,7 @@ class Simulation {
     if (fields_step_ == solver_.state().step) return;
     fields_step_ = solver_.state().step;
     const double time = solver_.state().time;
-    fields_->write(fields_step_, time * scales_.time(), flow_fields(case_, solver_, frames(time)));
+    fields_->write(fields_step_, time * scales_.time(), flow_fields(case_, solver_, frames()));
   }
 
   const Case& case_;
@@ -157,6 +174,7 @@ class Simulation {
   fluid::EulerOperator euler_;
   fluid::FlowSolver solver_;
   ZoneTree zones_;
+  std::optional<Flight> flight_;  ///< when the air moves the body
   FlowCheckpoint checkpoint_;
   Summary summary_;
   double nominal_step_;
@@ -166,6 +184,7 @@ class Simulation {
   std::optional<RotorOutput> rotors_;
   std::optional<io::FieldWriter> fields_;
   fluid::StepReport last_report_;
+  int coupling_iterations_ = 0;
   bool saved_ = false;
   long fields_step_ = -1;
 };

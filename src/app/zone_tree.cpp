@@ -4,6 +4,7 @@
 #include <set>
 
 #include "app/flow_setup.h"
+#include "app/vehicle.h"
 #include "base/errors.h"
 #include "base/options.h"
 
@@ -66,7 +67,8 @@ ZoneTree::ZoneTree(const Case& c, const mesh::Mesh& mesh) : body_(scaled_motion(
   for (size_t i = 0; i < c.zone.size(); ++i) {
     const std::string key = fmt::format("zone[{}]", i);
     Link link{find_zone(mesh, c.zone[i].name, key + ".name"), find_zone(mesh, c.zone[i].parent, key + ".parent"),
-              {scaled(zone_rotation(c.zone[i]), Scales(c.fluid))}};
+              scaled(zone_rotation(c.zone[i]), Scales(c.fluid)), rotor_of_zone(c, c.zone[i]), 1};
+    if (link.rotor >= 0 && link.rotation.axis.dot(c.body.vehicle.rotor[link.rotor].spin_axis) < 0) link.sense = -1;
     if (!turning.insert(link.zone).second) throw UserError("{}.name: \"{}\" has an entry already", key, c.zone[i].name);
     open.push_back(std::move(link));
   }
@@ -79,11 +81,22 @@ ZoneTree::ZoneTree(const Case& c, const mesh::Mesh& mesh) : body_(scaled_motion(
   }
 }
 
-fluid::Frames ZoneTree::frames(double time) const {
-  fluid::Frames frames(n_zones_, mesh::evaluate(body_, time));
-  for (const Link& link : links_)
-    frames[link.zone] = mesh::compose(frames[link.parent], mesh::evaluate(link.motion, time));
+fluid::Frames ZoneTree::frames(const mesh::FrameState& body, double time, const std::vector<Spin>& spins) const {
+  fluid::Frames frames(n_zones_, body);
+  for (const Link& link : links_) {
+    mesh::Rotation rotation = link.rotation;
+    if (link.rotor >= 0) {
+      const Spin& spin = spins.at(link.rotor);
+      rotation.angle = {.mean = link.sense * spin.angle, .rate = link.sense * spin.speed};
+    }
+    const double now = link.rotor >= 0 ? 0 : time;  // a spin is that of this moment
+    frames[link.zone] = mesh::compose(frames[link.parent], mesh::evaluate({rotation}, now));
+  }
   return frames;
+}
+
+Vec3 ZoneTree::spin_point(int zone) const {
+  return std::find_if(links_.begin(), links_.end(), [&](const Link& l) { return l.zone == zone; })->rotation.point;
 }
 
 }  // namespace windhover::app

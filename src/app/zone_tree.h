@@ -17,13 +17,25 @@ ZonedMesh read_zones(const Case& c, MPI_Comm comm);
 class ZoneTree {
  public:
   ZoneTree(const Case& c, const mesh::Mesh& mesh);
-  fluid::Frames frames(double time) const;
+  fluid::Frames frames(double time) const { return frames(body(time), time, {}); }
+
+  /// Angle (rad) and speed of a rotor of the body, about its spin axis.
+  struct Spin {
+    double angle, speed;
+  };
+  /// The same for a body that is elsewhere and whose rotors turn zones.
+  fluid::Frames frames(const mesh::FrameState& body, double time, const std::vector<Spin>& spins) const;
+  /// A point of the axis about which a zone turns, in the zone's own frame.
+  Vec3 spin_point(int zone) const;
+
   mesh::FrameState body(double time) const { return mesh::evaluate(body_, time); }
 
  private:
   struct Link {
     int zone, parent;
-    mesh::Motion motion;
+    mesh::Rotation rotation;
+    int rotor;     ///< of the body that turns it, or −1
+    double sense;  ///< of the rotor's spin about the zone's axis
   };
   mesh::Motion body_;  ///< of zones without a parent
   size_t n_zones_;

@@ -54,5 +54,8 @@ void OptionsDocumenter::key(const std::string& name, const std::optional<double>
 void OptionsDocumenter::key(const std::string& name, const std::optional<int>&, const Key& key) {
   row(name, "integer", "–", key);
 }
+void OptionsDocumenter::key(const std::string& name, const std::optional<Eigen::Vector3d>&, const Key& key) {
+  row(name, "three numbers", "–", key);
+}
 
 }  // namespace windhover::io

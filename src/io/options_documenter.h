@@ -25,6 +25,7 @@ class OptionsDocumenter {
   void key(const std::string& name, const std::map<std::string, std::string>& value, const Key& key);
   void key(const std::string& name, const std::optional<double>& value, const Key& key);
   void key(const std::string& name, const std::optional<int>& value, const Key& key);
+  void key(const std::string& name, const std::optional<Eigen::Vector3d>& value, const Key& key);
 
   template <class Options>
   void section(const std::string& name, Options& options, const std::string& doc) {

@@ -1,0 +1,21 @@
+// From a case to the vehicle that the air moves: body, motors, controller.
+#pragma once
+#include <toml++/toml.h>
+
+#include "app/case.h"
+#include "coupling/window.h"
+
+namespace windhover::app {
+
+/// The body moves under the air's loads, not as prescribed.
+inline bool is_dynamic(const Case& c) { return c.body.kind == "dynamic"; }
+
+coupling::VehicleModel vehicle_model(const Case& c);
+
+/// The rotor of the body with this zone's name, or −1.
+int rotor_of_zone(const Case& c, const ZoneOptions& zone);
+
+/// UserError when there can be no such vehicle, or its rotors do not fit the zones that turn with them.
+void validate_vehicle(const Case& c, const toml::table& file);
+
+}  // namespace windhover::app
