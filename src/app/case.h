@@ -130,6 +130,8 @@ struct OutputOptions {
   std::string directory;  ///< after load_case: never empty
   int fields_interval = 0, checkpoint_interval = 100;
   double average_from_s = 0;
+  int span_strips = 20;
+  std::vector<double> section_r_over_R;
 };
 
 struct Case {

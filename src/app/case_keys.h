@@ -193,6 +193,10 @@ void declare(V& v, OutputOptions& o) {
   v.key("checkpoint_interval", o.checkpoint_interval,
         {.doc = "steps between checkpoints; the end of a run is one as well", .min = 1});
   v.key("average_from_s", o.average_from_s, {.doc = "start of the averages in summary.json", .min = 0});
+  v.key("span_strips", o.span_strips,
+        {.doc = "strips of a rotor blade in the tables of loads along the span; 0: no such tables", .min = 0, .max = 200});
+  v.key("section_r_over_R", o.section_r_over_R,
+        {.doc = "radii over R of the sections of each rotor's blades in the tables of pressure around them", .above = 0, .max = 1});
 }
 
 template <class V>

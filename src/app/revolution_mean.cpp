@@ -44,7 +44,7 @@ std::vector<double> RevolutionMean::state() const {
 
 void RevolutionMean::restore(std::span<const double> state) {
   const std::size_t n = sum_.size();
-  assert(state.size() == state_size(n));
+  assert(state.size() == state_size());
   started_ = state[0] >= 0;
   time_s_ = state[0], angle_deg_ = state[1], elapsed_s_ = state[2];
   const auto list = [&](std::size_t i) {

@@ -22,10 +22,11 @@ class RevolutionMean {
   std::optional<Revolution> add(double time_s, double turned_deg, std::span<const double> values);
 
   const std::optional<Revolution>& latest() const { return latest_; }
+  const std::vector<double>& values() const { return last_; }
 
   /// All of this as numbers, for a checkpoint, and back; the same number of values is expected.
   std::vector<double> state() const;
-  static constexpr std::size_t state_size(std::size_t n_values) { return 6 + 3 * n_values; }
+  std::size_t state_size() const { return 6 + 3 * last_.size(); }
   void restore(std::span<const double> state);
 
  private:

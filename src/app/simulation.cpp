@@ -107,7 +107,7 @@ class Simulation {
     const fluid::FlowState& state = solver_.state();
     const fluid::Frames now = frames();
     const auto fluxes = euler_.patch_fluxes(state.q, now);
-    record.rotors = rotors_->step(state.step, state.time * scales_.time(), fluxes, now);
+    record.rotors = rotors_->step(solver_, fluxes, now);
     return history_->append(solver_, body(), fluxes, record);
   }
 
@@ -162,6 +162,7 @@ class Simulation {
     if (fields_step_ == solver_.state().step) return;
     fields_step_ = solver_.state().step;
     const double time = solver_.state().time;
+    rotors_->write();
     fields_->write(fields_step_, time * scales_.time(), flow_fields(case_, solver_, frames()));
   }
 

@@ -3,6 +3,7 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,12 @@ struct PatchFlux {
   mesh::Vec3 moment = mesh::Vec3::Zero();         ///< of that force about the inertial origin
 };
 
+/// Places beside a patch: blocks like the patch's own, of the same cells, with arms to other places.
+struct SurfacePoints {
+  int patch = 0;
+  std::vector<mesh::FaceBlock> blocks;
+};
+
 /// How the rate of change R enters a result: mass V x + rate R + known.
 struct Combination {
   double mass = 0, rate = 1;
@@ -66,6 +73,8 @@ class EulerOperator {
 
   /// One entry per mesh patch.
   std::vector<PatchFlux> patch_fluxes(Vec q, const Frames& frames);
+  /// States that the boundary conditions give at each of these sets of places, in the order of its blocks' lanes.
+  std::vector<std::vector<State<double>>> surface_states(Vec q, const Frames& frames, std::span<const SurfacePoints> points);
   /// States at the face centroids of a patch, in the order of its blocks' lanes (owned by this rank).
   std::vector<State<double>> patch_states(Vec q, const Frames& frames, int patch);
 

@@ -44,17 +44,25 @@ std::vector<PatchFlux> EulerOperator::patch_fluxes(Vec q, const Frames& frames) 
   return sums;
 }
 
-std::vector<State<double>> EulerOperator::patch_states(Vec q, const Frames& frames, int patch) {
+std::vector<std::vector<State<double>>> EulerOperator::surface_states(Vec q, const Frames& frames,
+                                                                      std::span<const SurfacePoints> points) {
   prepare(q, frames);
   const int r = static_cast<int>(model_.reconstruction);
-  const auto& p = mesh_.patches[patch];
-  const FaceInput in = face_input(frames[p.zone]);
-  std::vector<State<double>> states;
-  for (const FaceBlock& b : p.blocks) {
-    const State<Pack> s = kBoundaryKernels.state[r](in, *patch_kind_[patch], b);
-    for (int i = 0; i < b.count; ++i) states.push_back(lane(s, i));
+  std::vector<std::vector<State<double>>> states;
+  for (const SurfacePoints& set : points) {
+    const FaceInput in = face_input(frames[mesh_.patches[set.patch].zone]);
+    auto& here = states.emplace_back();
+    for (const FaceBlock& b : set.blocks) {
+      const State<Pack> s = kBoundaryKernels.state[r](in, *patch_kind_[set.patch], b);
+      for (int i = 0; i < b.count; ++i) here.push_back(lane(s, i));
+    }
   }
   return states;
+}
+
+std::vector<State<double>> EulerOperator::patch_states(Vec q, const Frames& frames, int patch) {
+  const SurfacePoints faces{patch, mesh_.patches[patch].blocks};
+  return surface_states(q, frames, {&faces, 1}).front();
 }
 
 double EulerOperator::courant_number(Vec q, const Frames& frames, double dt) {

@@ -54,7 +54,7 @@ Eigen::Isometry3d Blades::pose(int blade) const {
   return pose;
 }
 
-Blades::Section Blades::section(double radius) const {
+BladeSection Blades::local_section(double radius) const {
   const double R = rotor_.blade.radius_m, at = radius / R;
   const double pitch = stations_.pitch(at);
   const Vec3 aft = -rotor_.spin() * Vec3::UnitY();  // the blade moves the other way
@@ -76,7 +76,7 @@ TriangleSurface Blades::local_surface() const {
   const bool is_sharp = rotor_.blade.trailing_edge_thickness == 0;
   std::vector<std::vector<int>> rings;  // over the upper side to the leading edge and back along the lower side
   for (const double f : spanwise_.fractions(refine_)) {
-    const Section s = section(first_radius_ + f * spanwise_.length);
+    const BladeSection s = local_section(first_radius_ + f * spanwise_.length);
     auto& ring = rings.emplace_back();
     for (int i = n; i > 0; --i) ring.push_back(builder.add(s.at(upper_[i])));
     for (int i = 0; i < n; ++i) ring.push_back(builder.add(s.at(lower_[i])));
@@ -98,6 +98,12 @@ TriangleSurface Blades::local_surface() const {
   return builder.take();
 }
 
+BladeSection Blades::section(int blade, double radius) const {
+  const BladeSection s = local_section(radius);
+  const Eigen::Isometry3d from_blade = pose(blade);
+  return {from_blade * s.quarter_chord, from_blade.linear() * s.back, from_blade.linear() * s.up, s.chord};
+}
+
 TriangleSurface Blades::surface(int blade) const {
   TriangleSurface surface = local_surface();
   const Eigen::Isometry3d from_blade = pose(blade);
@@ -110,7 +116,7 @@ double Blades::size(const Vec3& point) const {
   for (const Eigen::Isometry3d& to_blade : to_blade_) {
     const Vec3 p = to_blade * point;
     const double radius = std::clamp(p.x(), first_radius_, last_radius_);
-    const Section s = section(radius);
+    const BladeSection s = local_section(radius);
     const double x = std::clamp((p - s.quarter_chord).dot(s.back) / s.chord + 0.25, 0.0, 1.0);
     const double distance = (p - s.at({x, 0})).norm();
     double along = chordwise_.size(x * chordwise_.length);

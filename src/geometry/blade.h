@@ -20,6 +20,13 @@ struct TriangleSurface {
 /// Columns: the direction of the first blade at angle 0, the one a quarter turn on, the axis.
 Eigen::Matrix3d rotor_axes(const RotorOptions& rotor);
 
+/// A section of a blade: points of it are quarter_chord + chord ((x − ¼) back + y up) with x, y in chords.
+struct BladeSection {
+  Vec3 quarter_chord, back, up;
+  double chord;
+  Vec3 at(const Vec2& p) const { return quarter_chord + chord * ((p.x() - 0.25) * back + p.y() * up); }
+};
+
 class Blades {
  public:
   Blades(const RotorOptions& rotor, double refine);
@@ -27,17 +34,14 @@ class Blades {
   /// Rows of sections, closed at root and tip by strips of points across the thickness.
   TriangleSurface surface(int blade) const;
 
+  /// The section at a radius along the pitch axis, at the rotor's angle at the start; metres.
+  BladeSection section(int blade, double radius) const;
+
   /// Wanted size at a point at refine = 1: the geometric mean of those along chord and span on the nearest blade, growing with the distance.
   double size(const Vec3& point) const;
 
  private:
-  /// A section in the blade's frame: x towards the tip, z above the blade's plane.
-  struct Section {
-    Vec3 quarter_chord, back, up;
-    double chord;
-    Vec3 at(const Vec2& p) const { return quarter_chord + chord * ((p.x() - 0.25) * back + p.y() * up); }
-  };
-  Section section(double radius) const;
+  BladeSection local_section(double radius) const;  ///< in the blade's frame: x towards the tip, z above the blade's plane
   int cells_across(int point) const;
   TriangleSurface local_surface() const;
   Eigen::Isometry3d pose(int blade) const;  ///< from the blade's frame

@@ -96,10 +96,11 @@ class Rotors(unittest.TestCase):
             return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
 
     def test_tables(self):
-        steps = ("--set", "time.step_deg=9", "--set", "time.start_steps=2", "--set", "time.first_step_ratio=0.1")
+        steps = ("--set", "time.step_deg=9", "--set", "time.start_steps=2", "--set", "time.first_step_ratio=0.1",
+                 "--set", "output.fields_interval=25", "--set", "output.section_r_over_R=[0.8, 0.5]")
         self.assertEqual(self.run_program("mesh", CASE).returncode, 0)
         self.assertEqual(self.run_program("run", CASE, "--out", "whole", "--steps", "50", *steps).returncode, 0)
-        self.assertEqual(self.run_program("run", CASE, "--out", "parts", "--steps", "33", *steps).returncode, 0)
+        self.assertEqual(self.run_program("run", CASE, "--out", "parts", "--steps", "25", *steps).returncode, 0)
         self.assertEqual(self.run_program("run", CASE, "--out", "parts", "--steps", "50", "--restart", *steps).returncode, 0)
         self.assertEqual(self.tables("whole"), self.tables("parts"))
 
@@ -126,8 +127,43 @@ class Rotors(unittest.TestCase):
         self.assertAlmostEqual(revolution["thrust_N"], mean / 0.06, delta=1e-9 * mean / 0.06)
         self.assertAlmostEqual(revolution["time_s"], 0.06, delta=1e-12)
         self.assertLess(abs(revolution["hub_thrust_N"]), 0.05 * revolution["thrust_N"])
+        self.check_strips(history, revolution)
+        self.check_sections()
         summary = json.loads((self.folder / "whole/summary.json").read_text())
         self.assertEqual(summary["rotors"]["left"]["latest_revolution"]["CT"], revolution["CT"])
+
+    def check_strips(self, history, revolution):
+        """The strips add up to the blades' loads, at each output and on average."""
+        width = 0.75 / 20
+        strips = self.rows("whole/rotor_left_strips.csv")
+        self.assertEqual({row["step"] for row in strips}, {0, 25, 50})
+        last = [row for row in strips if row["step"] == 50]
+        self.assertEqual(len(last), 40)
+        self.assertAlmostEqual(last[0]["r_over_R"], 0.25 + width / 2, delta=1e-12)
+        self.assertAlmostEqual(last[0]["chord_m"], 0.2 - 0.05 * (width / 2) / 0.75, delta=1e-12)
+        self.assertAlmostEqual(sum(row["dT_dr_N_m"] for row in last) * width, history[50]["rotor_left_thrust_N"],
+                               delta=0.01 * history[50]["rotor_left_thrust_N"])  # without the hub
+        mean = self.rows("whole/rotor_left_strips_mean.csv")
+        for column, whole, hub in (("dT_dr_N_m", "thrust_N", "hub_thrust_N"), ("dQ_dr_N", "torque_Nm", "hub_torque_Nm")):
+            blades = revolution[whole] - revolution[hub]
+            self.assertAlmostEqual(sum(row[column] for row in mean) * width, blades, delta=1e-11 * blades)
+        self.assertEqual([row["blade"] for row in mean], 20 * [0] + 20 * [1])
+        self.assertTrue(all(row["dT_dr_N_m"] > 0 and row["dQ_dr_N"] > 0 for row in mean))
+
+    def check_sections(self):
+        """The pressure around a section gives about the coefficient of the strip there."""
+        points = self.rows("whole/rotor_left_sections_mean.csv")
+        strips = self.rows("whole/rotor_left_strips_mean.csv")
+        for blade in (0, 1):
+            for r_over_R in (0.5, 0.8):
+                own = [p for p in points if (p["blade"], p["r_over_R"]) == (blade, r_over_R)]
+                sides = [[(p["x_over_c"], p["Cp"]) for p in own if p["side"] == side] for side in (-1, 1)]
+                for side in sides:
+                    self.assertEqual(side, sorted(side))
+                    self.assertTrue(all(-0.01 < x < 1.01 for x, _ in side))
+                lower, upper = (sum((b[0] - a[0]) * (a[1] + b[1]) / 2 for a, b in zip(s, s[1:])) for s in sides)
+                strip = min((s for s in strips if s["blade"] == blade), key=lambda s: abs(s["r_over_R"] - r_over_R))
+                self.assertAlmostEqual(lower - upper, strip["normal_coefficient"], delta=0.25 * strip["normal_coefficient"])
 
     def test_errors(self):
         self.check_error(self.run_program("mesh", second(CASE, "right", 1)), "case.toml:", "overlaps that of rotor")

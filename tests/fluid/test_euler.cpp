@@ -95,3 +95,30 @@ TEST_CASE("the loads on a closed wall of uniform pressure vanish, moments are ab
     CHECK(std::abs(fluxes[p].flux.mass) < 1e-13);
   }
 }
+
+TEST_CASE("at other places of a surface a linear density is exact", "[euler]") {
+  Setup s("cube");
+  EulerOperator euler(s.mesh, s.model);
+  const Frames frames(s.mesh.zones.size());
+  const mesh::Vec3 slope(0.03, -0.02, 0.05), shift(0.01, -0.02, 0.03);
+  VecHandle q = euler.make_vector();
+  set_initial(euler, frames, [&](const mesh::Vec3& x) { return State<double>{1 + slope.dot(x), 0, 0, 0, 0.7}; }, q);
+  std::vector<SurfacePoints> points;
+  for (int p = 0; p < int(s.mesh.patches.size()); ++p) {
+    points.push_back({p, s.mesh.patches[p].blocks});
+    for (auto& b : points.back().blocks)
+      for (int i = 0; i < b.count; ++i)
+        for (int d = 0; d < 3; ++d) b.arm[i][0][d] += shift[d];
+  }
+  const auto states = euler.surface_states(q, frames, points);
+  for (size_t set = 0; set < points.size(); ++set) {
+    const bool wall = s.mesh.patches[set].name == "wall";  // a far field mixes its own state in
+    size_t next = 0;
+    for (const auto& b : points[set].blocks)
+      for (int i = 0; i < b.count; ++i, ++next) {
+        const mesh::Vec3 place = s.mesh.centroid[b.cell[0][i]] + mesh::Vec3::Map(b.arm[i][0]);
+        if (wall) CHECK(std::abs(states[set][next].rho - 1 - slope.dot(place)) < 1e-13);
+      }
+    CHECK(next == states[set].size());
+  }
+}
