@@ -75,13 +75,21 @@ void validate_time(const Case& c, const toml::table& file) {
                     io::place(file, "time.step_deg"), *time.step_deg);
 }
 
+void validate_resolution(const MeshOptions& mesh, const toml::table& file) {
+  if (mesh.resolution.empty() || mesh.resolutions.contains(mesh.resolution)) return;
+  std::vector<std::string> names;
+  for (const auto& [name, refine] : mesh.resolutions) names.push_back(name);
+  throw UserError("{}: mesh.resolution = \"{}\": is not in mesh.resolutions{}", io::place(file, "mesh.resolution"),
+                  mesh.resolution, suggestion(mesh.resolution, names));
+}
+
 void validate_direction(const Vec3& direction, const std::string& key, const toml::table& file) {
   if (direction.norm() == 0) throw UserError("{}: {} = [0, 0, 0]: has no direction", io::place(file, key), key);
 }
 
 void validate(const Case& c, const toml::table& file) {
   if (c.mesh.file.empty())
-    throw UserError("{}: mesh: one of mesh.file, mesh.geometry and a [[rotor]] with blades is needed", io::place(file, "mesh"));
+    throw UserError("{}: mesh: one of mesh.file, mesh.geometry, [airframe] and a [[rotor]] with blades is needed", io::place(file, "mesh"));
   if (!c.mesh.parameters.empty() && c.mesh.geometry.empty())
     throw UserError("{}: mesh.parameters: is of no use without mesh.geometry", io::place(file, "mesh.parameters"));
   for (const auto& name : c.body.walls) {
@@ -117,11 +125,13 @@ void validate(const Case& c, const toml::table& file) {
 }  // namespace
 
 Case load_case(const fs::path& file, const std::vector<std::string>& overrides) {
-  const toml::table root = io::read_toml(file, overrides);
+  toml::table root = io::read_toml(file, overrides);
+  copy_like_rotors(root);
   Case c;
   c.file = fs::absolute(file).lexically_normal();
   c.name = case_name(c.file);
   io::read_options(root, c);
+  validate_resolution(c.mesh, root);
   complete(c);
   validate(c, root);
   return c;

@@ -24,8 +24,13 @@ struct MeshOptions {
   std::map<std::string, double> parameters;
   double scale_m = 1;
   double refine = 1;
+  std::string resolution;
+  std::map<std::string, double> resolutions;
   geometry::FarfieldOptions farfield;
   double min_dihedral_deg = 1, min_edge_m = 0;  ///< after load_case with rotors: min_edge_m follows from the smallest rotor
+
+  /// What sizes are divided by: `refine` times that of the chosen resolution.
+  double refinement() const { return resolution.empty() ? refine : refine * resolutions.at(resolution); }
 };
 
 /// State on one side of the initial jump; the velocity is along the jump's direction.
@@ -141,6 +146,7 @@ struct Case {
   FluidOptions fluid;
   WindOptions wind;
   BodyOptions body;
+  geometry::AirframeOptions airframe;
   std::vector<geometry::RotorOptions> rotor;
   std::vector<ZoneOptions> zone;  ///< after load_case: those of rotors as well
   ControllerOptions controller;
@@ -162,11 +168,11 @@ std::string case_file_documentation();
 /// The prescribed motion of the root zone in SI units and radians.
 mesh::Motion body_motion(const Case& c);
 
-/// `windhover mesh` makes the mesh from [[rotor]], not from a .geo file.
-bool is_made_from_rotors(const Case& c);
+/// `windhover mesh` makes the mesh from [airframe] and [[rotor]], not from a .geo file.
+bool is_made_from_parts(const Case& c);
 
-/// The rotors that it makes, with the ball around them.
-geometry::GeometryOptions rotor_geometry(const Case& c);
+/// The airframe and the rotors that it makes, with the ball around them.
+geometry::GeometryOptions mesh_geometry(const Case& c);
 
 /// How a zone turns in its parent, in SI units and radians.
 mesh::Rotation zone_rotation(const ZoneOptions& zone);

@@ -16,12 +16,14 @@ void declare(V& v, MeshOptions& o) {
   v.key("geometry", o.geometry, {.doc = "gmsh .geo file from which `windhover mesh` makes the mesh"});
   v.key("parameters", o.parameters, {.doc = "numbers handed to the geometry, in place of its DefineConstant defaults"});
   v.key("scale_m", o.scale_m, {.doc = "metres per unit of the mesh file", .above = 0});
-  v.key("refine", o.refine, {.doc = "all sizes of [[rotor]] and farfield are divided by it", .above = 0});
+  v.key("refine", o.refine, {.doc = "all sizes of [airframe], [[rotor]] and farfield are divided by it", .above = 0});
+  v.key("resolution", o.resolution, {.doc = "one of mesh.resolutions; when missing, refine alone counts"});
+  v.key("resolutions", o.resolutions, {.doc = "names for values by which all sizes are divided, beside refine", .above = 0});
   v.key("min_dihedral_deg", o.min_dihedral_deg,
         {.doc = "`windhover mesh` refuses a mesh with a smaller angle between two faces of a cell", .min = 0});
   v.key("min_edge_m", o.min_edge_m,
         {.doc = "and with a shorter edge; missing: 1e-4 of the smallest rotor's radius, over refine", .min = 0});
-  v.section("farfield", o.farfield, "The ball around the rotors.");
+  v.section("farfield", o.farfield, "The ball around airframe and rotors.");
 }
 
 template <class V>
@@ -205,6 +207,8 @@ void declare(V& v, Case& o) {
   v.section("fluid", o.fluid, "The gas, the boundaries and the discretisation in space.");
   v.section("wind", o.wind, "The air far away.");
   v.section("body", o.body, "The body: its walls and its motion.");
+  v.section("airframe", o.airframe,
+            "The airframe that `windhover mesh` makes, a solid in the zone \"outer\"; its wall is the surface \"airframe\".");
   v.tables("rotor", o.rotor,
            "Rotors that `windhover mesh` makes. Each is a [[zone]] in the zone \"outer\", its walls are the surfaces name + "
            "\"_blades\" and name + \"_hub\", the ball is the surface \"farfield\".");

@@ -10,6 +10,7 @@
 #include "base/options.h"
 #include "io/file.h"
 #include "geometry/rotor_keys.h"
+#include "io/options_reader.h"
 #include "io/options_writer.h"
 #include "mesh/mesh.h"
 #include "mesh/quality.h"
@@ -54,18 +55,30 @@ void print_worst(const char* name, const mesh::Worst& worst, const char* unit) {
 
 /// What the mesh is made from, and the record of it beside the mesh.
 std::string geometry_text(const Case& c) {
-  geometry::GeometryOptions geometry = rotor_geometry(c);
-  for (auto& rotor : geometry.rotor) rotor.rpm = 0;  // the mesh does not depend on it
+  geometry::GeometryOptions geometry = mesh_geometry(c);
+  for (auto& rotor : geometry.rotor) rotor.rpm = rotor.mass_kg = 0;  // the mesh does not depend on them
+  for (auto& part : geometry.airframe.part) part.mass_kg = part.density_kg_m3 = 0;
   return io::options_text(geometry);
 }
 std::string record_of(const Case& c) { return c.mesh.file + ".toml"; }
 
+/// Keys that a record does not have yet count with their defaults.
+std::string text_of_record(const std::string& file) {
+  try {
+    geometry::GeometryOptions geometry;
+    io::read_options(io::read_toml(file), geometry);
+    return io::options_text(geometry);
+  } catch (const UserError&) {
+    return "";  // of other keys
+  }
+}
+
 bool is_other_geometry(const Case& c) {
-  return is_made_from_rotors(c) && (!fs::exists(record_of(c)) || io::read_text(record_of(c)) != geometry_text(c));
+  return is_made_from_parts(c) && (!fs::exists(record_of(c)) || text_of_record(record_of(c)) != geometry_text(c));
 }
 
 std::vector<std::string> mesher_command(const Case& c, const std::string& output) {
-  if (is_made_from_rotors(c)) {
+  if (is_made_from_parts(c)) {
     io::write_atomically(record_of(c), geometry_text(c));
     return {fs::path(own_path()).replace_filename("windhover-mesher"), record_of(c), output};
   }
@@ -85,7 +98,7 @@ void refuse(const Case& c, const char* what, const mesh::Worst& worst, const cha
 
 }  // namespace
 
-bool can_make_mesh(const Case& c) { return is_made_from_rotors(c) || !c.mesh.geometry.empty(); }
+bool can_make_mesh(const Case& c) { return is_made_from_parts(c) || !c.mesh.geometry.empty(); }
 
 bool mesh_is_due(const Case& c) {
   std::error_code missing;
@@ -99,7 +112,7 @@ void require_mesh(const Case& c) {
     throw UserError("{}: mesh.file: {} does not exist{}", c.file.string(), c.mesh.file,
                     can_make_mesh(c) ? "; `windhover mesh` with the same arguments makes it" : "");
   if (is_other_geometry(c))
-    throw UserError("{}: {} was made from other [[rotor]] or mesh keys; `windhover mesh` with the same arguments makes it anew",
+    throw UserError("{}: {} was made from other [airframe], [[rotor]] or mesh keys; `windhover mesh` with the same arguments makes it anew",
                     c.file.string(), c.mesh.file);
 }
 
@@ -113,8 +126,10 @@ void make_mesh(const Case& c) {
   const std::string errors = error_lines(io::read_text(log));
   if (code != 0 || !errors.empty() || !fs::exists(temporary)) {
     fs::remove(temporary, ignored);
+    constexpr int user_error = 2;
+    if (is_made_from_parts(c) && code == user_error) throw UserError("{}: the mesh cannot be made:{}", c.file.string(), errors);
     throw UserError("{}: gmsh failed (exit code {}); its messages are in {}{}",
-                    is_made_from_rotors(c) ? c.file.string() : c.mesh.geometry, code, log, errors);
+                    is_made_from_parts(c) ? c.file.string() : c.mesh.geometry, code, log, errors);
   }
   io::publish(temporary, c.mesh.file);
   fs::remove(log, ignored);

@@ -92,6 +92,7 @@ void complete(RotorOptions& rotor, const std::filesystem::path& folder) {
   default_to(size.hub_m, rotor.hub.radius_m / 3);
   default_to(size.interface_m, 0.12 * rotor.blade.radius_m);
   default_to(size.zone_m, size.interface_m);
+  if (size.wake_m > 0) default_to(size.wake_length_m, rotor.blade.radius_m);
 }
 
 void validate(const GeometryOptions& geometry) {

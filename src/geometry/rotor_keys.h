@@ -1,6 +1,7 @@
 // Every key of a rotor's geometry: name, range and meaning. The defaults are those of the structs in rotor_options.h.
 #pragma once
 #include "base/options.h"
+#include "geometry/airframe_keys.h"
 #include "geometry/rotor_options.h"
 
 namespace windhover::geometry {
@@ -53,18 +54,22 @@ void declare(V& v, RotorSizeOptions& o) {
   v.key("hub_m", o.hub_m, {.doc = "on the hub; 0: a third of its radius", .min = 0});
   v.key("interface_m", o.interface_m, {.doc = "on the zone's surface; 0: 12 % of the blade's radius", .min = 0});
   v.key("zone_m", o.zone_m, {.doc = "the largest within the zone; 0: as interface_m", .min = 0});
+  v.key("wake_m", o.wake_m, {.doc = "in the wake, a cylinder below the zone; 0: nothing special", .min = 0});
+  v.key("wake_length_m", o.wake_length_m, {.doc = "length of the wake; 0: the blade's radius", .min = 0});
   v.key("growth", o.growth, {.doc = "growth of sizes per distance", .above = 0, .max = 1});
 }
 
 template <class V>
 void declare(V& v, RotorOptions& o) {
   v.key("name", o.name, {.doc = "name of the rotor and of its zone"});
+  v.key("like", o.like, {.doc = "name of another rotor, from which all keys come that are not given here"});
   v.key("center_m", o.center_m, {.doc = "the hub's centre: lengths along the axis count from it"});
   v.key("axis", o.axis, {.doc = "axis of rotation, towards the thrust; any length"});
   v.key("direction", o.direction,
         {.doc = "how the rotor turns, seen from the side of the thrust", .choices = {"counter_clockwise", "clockwise"}});
   v.key("rpm", o.rpm, {.doc = "turns per minute", .min = 0});
   v.key("angle_deg", o.angle_deg, {.doc = "right-handed angle of the first blade at the start"});
+  v.key("mass_kg", o.mass_kg, {.doc = "mass of hub and blades", .min = 0});
   v.section("blade", o.blade, "The blades: sections at stations, joined by cubic splines, the pitch axis at a quarter chord.");
   v.section("hub", o.hub, "The hub: a cylinder with rounded edges, not joined to the blades.");
   v.section("zone", o.zone, "The cylinder that turns with the rotor.");
@@ -73,7 +78,7 @@ void declare(V& v, RotorOptions& o) {
 
 template <class V>
 void declare(V& v, FarfieldOptions& o) {
-  v.key("center_m", o.center_m, {.doc = "centre of the ball around all rotors"});
+  v.key("center_m", o.center_m, {.doc = "centre of the ball around everything"});
   v.key("radius_m", o.radius_m, {.doc = "its radius", .min = 0});
   v.key("size_m", o.size_m, {.doc = "size there; 0: a fifth of the radius", .min = 0});
 }
@@ -81,7 +86,8 @@ void declare(V& v, FarfieldOptions& o) {
 template <class V>
 void declare(V& v, GeometryOptions& o) {
   v.key("refine", o.refine, {.doc = "all sizes are divided by it", .above = 0});
-  v.section("farfield", o.farfield, "The ball around all rotors.");
+  v.section("farfield", o.farfield, "The ball around everything.");
+  v.section("airframe", o.airframe, "The airframe.");
   v.tables("rotor", o.rotor, "The rotors.");
 }
 

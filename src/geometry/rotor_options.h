@@ -1,12 +1,11 @@
 // What a case says of a rotor: where it is, how it turns, its blades and hub, its zone and the sizes of its mesh.
 #pragma once
-#include <Eigen/Core>
 #include <string>
 #include <vector>
 
-namespace windhover::geometry {
+#include "geometry/airframe_options.h"
 
-using Vec3 = Eigen::Vector3d;
+namespace windhover::geometry {
 
 /// Sections along the radius; lists have one entry per station, or none where they may be missing.
 struct BladeOptions {
@@ -35,13 +34,14 @@ struct RotorSizeOptions {
   double root_m = 0, tip_m = 0, span_m = 0;                         ///< along the span
   double hub_m = 0, interface_m = 0, zone_m = 0;
   double growth = 0.3;
+  double wake_m = 0, wake_length_m = 0;  ///< below the zone
 };
 
 struct RotorOptions {
-  std::string name = "rotor";
+  std::string name = "rotor", like;  ///< after load_case: like is empty
   Vec3 center_m = Vec3::Zero(), axis = Vec3::UnitY();
   std::string direction = "counter_clockwise";
-  double rpm = 0, angle_deg = 0;
+  double rpm = 0, angle_deg = 0, mass_kg = 0;
   BladeOptions blade;
   HubOptions hub;
   RotorZoneOptions zone;
@@ -61,6 +61,7 @@ struct FarfieldOptions {
 struct GeometryOptions {
   double refine = 1;
   FarfieldOptions farfield;
+  AirframeOptions airframe;
   std::vector<RotorOptions> rotor;
 };
 

@@ -6,9 +6,10 @@
 
 #include <exception>
 
+#include "base/errors.h"
 #include "geometry/rotor_keys.h"
 #include "io/options_reader.h"
-#include "mesher/rotor_model.h"
+#include "mesher/aircraft_model.h"
 
 /// gmsh's meshes depend on the addresses of its objects. Where the system refuses, meshes differ a little from run to run.
 void fix_addresses(char** argv) {
@@ -29,10 +30,13 @@ int main(int argc, char** argv) {
     gmsh::initialize();
     gmsh::option::setNumber("General.Terminal", 1);
     gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
-    windhover::mesher::mesh_rotors(geometry);
+    windhover::mesher::mesh_aircraft(geometry);
     gmsh::write(argv[2]);
     gmsh::finalize();
     return 0;
+  } catch (const windhover::UserError& error) {
+    fmt::print("Error: {}\n", error.what());
+    return 2;
   } catch (const std::exception& error) {
     fmt::print("Error: {}\n", error.what());
     return 1;
