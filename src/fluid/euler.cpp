@@ -43,12 +43,14 @@ void load_columns(const double* q, int count, Pack columns[8]) {
   transpose(packed, columns);
 }
 
-/// Speed relative to the moving cell over the speed of sound.
+/// M², squared speed relative to the moving cell over the speed of sound squared, led smoothly to its bound of 1:
+/// a kink there stalls Newton's method in transonic flow.
 template <class T>
-T relative_mach(const State<T>& s, const Pack grid[3], double gamma) {
+T bounded_mach_squared(const State<T>& s, const Pack grid[3], double gamma) {
   using std::sqrt;
   const T u = s.u - grid[0], v = s.v - grid[1], w = s.w - grid[2];
-  return sqrt((u * u + v * v + w * w + 1e-24) * s.rho / (gamma * s.p));
+  const T m2 = (u * u + v * v + w * w) * s.rho / (gamma * s.p), m4 = m2 * m2;
+  return m2 / sqrt(sqrt(1.0 + m4 * m4));
 }
 
 /// Velocity of the zone's points: V + spin r with r in the zone's axes.
@@ -77,7 +79,7 @@ template <class T>
 void make_rows(const T q[5], const Pack grid[3], bool use_mach, double gamma, T rows[8]) {
   const State<T> s = primitive(q, gamma);
   rows[0] = s.rho, rows[1] = s.u, rows[2] = s.v, rows[3] = s.w, rows[4] = s.p;
-  rows[kMach] = use_mach ? relative_mach(s, grid, gamma) : T(1.0);
+  rows[kMach] = use_mach ? bounded_mach_squared(s, grid, gamma) : T(1.0);
   rows[6] = rows[7] = T(0.0);
 }
 

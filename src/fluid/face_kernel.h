@@ -1,5 +1,5 @@
 // What happens on eight faces: reconstruction from both sides, flux, and the sum into the cells.
-// Cells are rows of eight doubles (rho, u, v, w, p, Mach, 0, 0), one cache line; a face works on whole rows,
+// Cells are rows of eight doubles (rho, u, v, w, p, Mach², 0, 0), one cache line; a face works on whole rows,
 // the flux on columns of eight faces.
 #pragma once
 #include <array>
@@ -14,7 +14,7 @@ namespace windhover::fluid {
 struct alignas(64) Row {
   double v[8];
 };
-inline constexpr int kMach = 5;  ///< column of the cell's relative Mach number, at most 1
+inline constexpr int kMach = 5;  ///< column of the cell's relative Mach number squared, at most 1
 
 /// The three derivatives (zone axes) of the five variables, one after the other in two cache lines.
 struct alignas(64) GradientRow {
@@ -95,7 +95,7 @@ inline Pack change(const GradientRow& g, const double* arm) {
 template <class T>
 struct Side {
   State<T> state;
-  T mach;
+  T mach_squared;
 };
 
 template <class T>
@@ -183,6 +183,13 @@ std::array<Side<T>, 2> face_sides(const FaceInput& in, const mesh::FaceBlock& b)
   }
 }
 
+/// Mach number of a face, 0..1: the root of the two sides' mean square (as in SLAU), smooth where their maximum is not.
+template <class T>
+T face_mach(const T& l, const T& r) {
+  using std::sqrt;
+  return sqrt(0.5 * (l + r) + 1e-8);
+}
+
 /// The part of a result that is summed: the value, or in linearised kernels the derivative.
 inline Pack result(const Pack& x) { return x; }
 inline Pack result(const Dual<Pack>& x) { return x.d; }
@@ -221,7 +228,7 @@ template <class FluxScheme, Reconstruction R, class T>
     if (k + 1 < count) prefetch<R, T>(in, blocks[k + 1]);
     const FaceGeometry face = face_geometry(in, b);
     const auto [l, r] = face_sides<R, T>(in, b);
-    const T mach = minimum(maximum(maximum(l.mach, r.mach), T(0.0)), T(1.0));
+    const T mach = face_mach(l.mach_squared, r.mach_squared);
     Pack rows[8];
     flux_rows(FluxScheme::flux(l.state, r.state, face.normal, mach, in.gamma), face.area, rows);
     for (int i = 0; i < b.count; ++i) {

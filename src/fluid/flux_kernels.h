@@ -45,7 +45,7 @@ void flux_jacobian(const FaceInput& in, const mesh::FaceBlock& b, BlockPack side
   const FaceGeometry face = face_geometry(in, b);
   const auto l = face_side<Reconstruction::first_order, Pack>(in, b, 0);
   const auto r = face_side<Reconstruction::first_order, Pack>(in, b, 1);
-  const Dual<Pack> mach = {minimum(maximum(l.mach, r.mach), Pack(1.0)), Pack(0.0)};  // frozen
+  const Dual<Pack> mach = {face_mach(l.mach_squared, r.mach_squared), Pack(0.0)};  // frozen
   const auto fixed_l = constant_state(l.state), fixed_r = constant_state(r.state);
   for (int k = 0; k < kVariables; ++k) {
     store_column(FluxScheme::flux(seeded_state(l.state, k, in.gamma), fixed_r, face.normal, mach, in.gamma), face.area,

@@ -45,7 +45,10 @@ struct Roe {
     const T jump = rho * c * (mach * dun);
     const T slow = rounded(relative - c, 0.1 * c, 10.0 * inverse_c) * half * (dp - jump);
     const T fast = rounded(relative + c, 0.1 * c, 10.0 * inverse_c) * half * (dp + jump);
-    const T contact_speed = rounded(relative, 1e-6 * c, 1e6 * inverse_c);
+    // rounded off below the velocity's jump, as Harten and Hyman (1983) do for sonic points: without it Newton's method
+    // cycles in cells where the flow turns over a face. Jumps are of second order in smooth flow, this of fourth
+    const T shift = sqrt(du * du + dv * dv + dw * dw + 1e-12 * (c * c));
+    const T contact_speed = rounded(relative, shift, 1.0 / shift);
     const T entropy = contact_speed * (r.rho - l.rho - 2.0 * half * dp);
     const T shear = contact_speed * rho;
 

@@ -148,18 +148,23 @@ PetscErrorCode NewtonKrylov::multiply(Mat matrix, Vec x, Vec y) {
 PetscErrorCode NewtonKrylov::limit_update(SNESLineSearch, Vec x, Vec y, PetscBool* changed, void* context) {
   auto& self = *static_cast<NewtonKrylov*>(context);
   return self.guard_.run([&] {
-    const double *q = nullptr, *change = nullptr;
+    const double* q = nullptr;
+    double* change = nullptr;
+    int limited = 0;
     petsc(VecGetArrayRead(x, &q));
-    petsc(VecGetArrayRead(y, &change));
-    double fraction = 1.0;
-    for (mesh::Index c = 0; c < self.euler_.mesh().n_owned && fraction > 1e-6; ++c)
+    petsc(VecGetArray(y, &change));
+    for (mesh::Index c = 0; c < self.euler_.mesh().n_owned; ++c) {
+      double fraction = 1.0;
       while (fraction > 1e-6 && !keeps_positive(q + 5 * c, change + 5 * c, fraction, self.euler_.model().gamma))
         fraction *= 0.5;
+      if (fraction == 1.0) continue;
+      limited = 1;
+      for (int k = 0; k < kVariables; ++k) change[5 * c + k] *= fraction;
+    }
     petsc(VecRestoreArrayRead(x, &q));
-    petsc(VecRestoreArrayRead(y, &change));
-    MPI_Allreduce(MPI_IN_PLACE, &fraction, 1, MPI_DOUBLE, MPI_MIN, self.euler_.mesh().comm);
-    *changed = fraction < 1.0 ? PETSC_TRUE : PETSC_FALSE;
-    if (*changed) petsc(VecScale(y, fraction));
+    petsc(VecRestoreArray(y, &change));
+    MPI_Allreduce(MPI_IN_PLACE, &limited, 1, MPI_INT, MPI_MAX, self.euler_.mesh().comm);
+    *changed = limited ? PETSC_TRUE : PETSC_FALSE;
   });
 }
 
