@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/errors.h"
+#include "coupling/predictor.h"
 
 namespace windhover::coupling {
 namespace {
@@ -11,7 +12,6 @@ namespace {
 using body::LoadLayout;
 using body::LoadPolynomial;
 
-constexpr size_t kKeptLoads = 2;
 constexpr double kLeastPartOfWeight = 1e-3;
 
 /// Calls f(first component, number of components) for force, moment and each rotor's torque.
@@ -27,10 +27,9 @@ void for_each_block(Eigen::Index size, F f) {
 /// One step's fixed point: counts, judges, and keeps the candidate that would be accepted.
 class CoupledStep::Problem : public FixedPoint {
  public:
-  Problem(CoupledStep& step, double end, const VectorXd& first)
+  Problem(CoupledStep& step, double end)
       : step_(step), start_(step.state_.vehicle), end_(end), scale_(least_scale()) {
     for (const auto& point : step.state_.loads) widen_scale(point.loads);
-    widen_scale(first);
     known_ = step.state_.loads.back().loads;
   }
 
@@ -44,6 +43,7 @@ class CoupledStep::Problem : public FixedPoint {
   }
   bool flow_converged() const override { return answer_.converged; }
   const VectorXd& scale() const override { return scale_; }
+  double tolerance() const override { return step_.options_.tolerance; }
 
   const StepResult& result() const { return result_; }
   const VehicleState& candidate() const { return candidate_; }
@@ -143,16 +143,10 @@ void CoupledStep::start() {
   state_.loads = {{state_.vehicle.t, fluid_.loads(state_.vehicle)}};
 }
 
-VectorXd CoupledStep::predicted(double end) const {
-  if (entry_.prediction == Prediction::hold) return state_.loads.back().loads;
-  return LoadPolynomial(state_.loads).at(end);
-}
-
 StepResult CoupledStep::advance(double end) {
   fluid_.begin([this](double) { return state_.vehicle; }, end - state_.vehicle.t);
-  const VectorXd first = predicted(end);
-  Problem problem(*this, end, first);
-  scheme_->solve(first, problem);
+  Problem problem(*this, end);
+  scheme_->solve(predict(entry_.prediction, state_.loads, end, problem.scale()), problem);
   if (!problem.result().accepted) {
     scheme_->reject();
     return problem.result();

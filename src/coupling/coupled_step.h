@@ -77,7 +77,6 @@ class CoupledStep {
 
  private:
   class Problem;
-  VectorXd predicted(double end) const;
 
   const Window& window_;
   FluidSide& fluid_;

@@ -23,7 +23,7 @@ class IqnIls : public Scheme {
     while (const auto g = fixed_point.evaluate(x, options_.relaxation)) {
       const Column now{*g - x, *g};
       if (fixed_point.flow_converged()) {  // before that, differences tell of Newton's progress more than of the loads
-        if (last) current_.push_front({now.residual - last->residual, now.answer - last->answer});
+        if (last) keep({now.residual - last->residual, now.answer - last->answer}, fixed_point);
         last = now;
       }
       x += step(now.residual, fixed_point.scale());
@@ -69,6 +69,12 @@ class IqnIls : public Scheme {
   }
 
  private:
+  void keep(Column column, const FixedPoint& fixed_point) {
+    const VectorXd change = column.residual.cwiseQuotient(fixed_point.scale());
+    if (change.lpNorm<Eigen::Infinity>() > fixed_point.tolerance()) current_.push_front(std::move(column));
+    if (static_cast<int>(current_.size()) > options_.columns) current_.pop_back();
+  }
+
   /// The change of x: what the columns say, and the relaxed residual where they say nothing.
   VectorXd step(const VectorXd& residual, const VectorXd& scale) const {
     std::vector<VectorXd> basis;  // orthonormal, scaled

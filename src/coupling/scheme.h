@@ -22,6 +22,8 @@ class FixedPoint {
   virtual bool flow_converged() const = 0;
   /// Sizes of the components of x: what makes forces and moments comparable.
   virtual const VectorXd& scale() const = 0;
+  /// Differences below this, relative to the scale, tell nothing.
+  virtual double tolerance() const = 0;
 };
 
 class Scheme {

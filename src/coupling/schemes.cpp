@@ -11,10 +11,10 @@ namespace {
 constexpr SchemeEntry kTable[] = {
     {"loose", "", Prediction::hold, false, make_single_pass},
     {"loose-extrapolated", "", Prediction::extrapolate, false, make_single_pass},
-    {"strong", "constant", Prediction::extrapolate, true, make_constant},
-    {"strong", "aitken", Prediction::extrapolate, true, make_aitken},
-    {"strong", "anderson", Prediction::extrapolate, true, make_anderson},
-    {"strong", "iqn-ils", Prediction::extrapolate, true, make_iqn_ils},
+    {"strong", "constant", Prediction::best, true, make_constant},
+    {"strong", "aitken", Prediction::best, true, make_aitken},
+    {"strong", "anderson", Prediction::best, true, make_anderson},
+    {"strong", "iqn-ils", Prediction::best, true, make_iqn_ils},
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace windhover::coupling {
 
 /// Where the first loads of a step come from.
-enum class Prediction { hold, extrapolate };
+enum class Prediction { hold, extrapolate, best };
 
 struct SchemeEntry {
   const char* scheme;

@@ -105,7 +105,8 @@ void FlowSolver::explicit_state(const double* coefficients, int stages, double d
 }
 
 /// Stage i of an implicit scheme; false unless it is converged.
-bool FlowSolver::solve_stage(const TimeScheme& scheme, int i, const FrameFunction& frames, int max_newton) {
+bool FlowSolver::solve_stage(const TimeScheme& scheme, int i, const FrameFunction& frames, int max_newton,
+                             int min_newton) {
   const VecHandle& stage = stages_[stages_.size() - scheme.stages + i];
   StageEquation equation;
   equation.combination = {1.0 / dt_, scheme.a[i][i], known_};
@@ -121,7 +122,7 @@ bool FlowSolver::solve_stage(const TimeScheme& scheme, int i, const FrameFunctio
   }
   for (int j = 0; j < i; ++j)
     if (scheme.a[i][j] != 0) petsc(VecAXPY(known_, scheme.a[i][j], rates_[j]));
-  report_.stages.push_back(newton_->solve(equation, stage, reference_[i], max_newton));
+  report_.stages.push_back(newton_->solve(equation, stage, reference_[i], max_newton, min_newton));
   const NewtonReport& newton = report_.stages.back();
   reference_[i] = std::max(reference_[i], newton.iterations.front().residual);
   report_.failed = report_.failed || newton.failed;
@@ -157,7 +158,7 @@ void FlowSolver::iterate_explicit(const TimeScheme& scheme, const FrameFunction&
   report_.accepted = true;
 }
 
-const StepReport& FlowSolver::iterate(const FrameFunction& frames, int max_newton) {
+const StepReport& FlowSolver::iterate(const FrameFunction& frames, int max_newton, int min_newton) {
   const TimeScheme& scheme = current_scheme();
   report_.accepted = report_.failed = false;
   report_.reason.clear();
@@ -167,7 +168,7 @@ const StepReport& FlowSolver::iterate(const FrameFunction& frames, int max_newto
   }
   bool converged = true;
   for (int i = scheme.a[0][0] == 0 ? 1 : 0; i < scheme.stages && !report_.failed; ++i)
-    converged = solve_stage(scheme, i, frames, max_newton) && converged;
+    converged = solve_stage(scheme, i, frames, max_newton, min_newton) && converged;
   report_.accepted = converged;
   return report_;
 }

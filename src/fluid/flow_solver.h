@@ -50,8 +50,9 @@ class FlowSolver {
   /// The same in parts, for frames that depend on the flow: what is known at the start (the rate R(q_n), first guesses)
   /// is computed once, then the step is solved again and again, each time from the last iterate on.
   void begin(const FrameFunction& frames, double dt);
-  /// At most `max_newton` Newton iterations in each stage; frames must not change at the start of the step.
-  const StepReport& iterate(const FrameFunction& frames, int max_newton);
+  /// At least `min_newton` and at most `max_newton` Newton iterations in each stage; frames must not change at the start
+  /// of the step.
+  const StepReport& iterate(const FrameFunction& frames, int max_newton, int min_newton = 0);
   /// The latest iterate: what the state becomes if it is accepted.
   Vec iterate() const { return stages_.back(); }
   void accept();
@@ -60,7 +61,7 @@ class FlowSolver {
 
  private:
   const TimeScheme& current_scheme() const;
-  bool solve_stage(const TimeScheme& scheme, int i, const FrameFunction& frames, int max_newton);
+  bool solve_stage(const TimeScheme& scheme, int i, const FrameFunction& frames, int max_newton, int min_newton);
   void iterate_explicit(const TimeScheme& scheme, const FrameFunction& frames);
   void explicit_state(const double* coefficients, int stages, double dt, Vec out);
   void predict(double fraction, double dt, Vec out) const;

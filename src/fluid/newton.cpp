@@ -92,9 +92,11 @@ NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options) :
   petsc(SNESSetFromOptions(snes_));
 }
 
-NewtonReport NewtonKrylov::solve(const StageEquation& equation, Vec q, double reference, int max_iterations) {
+NewtonReport NewtonKrylov::solve(const StageEquation& equation, Vec q, double reference, int max_iterations,
+                                 int min_iterations) {
   equation_ = &equation;
   max_iterations_ = max_iterations;
+  min_iterations_ = min_iterations;
   petsc(SNESSetTolerances(snes_, 0, 0, 0, max_iterations, PETSC_MAX_INT));
   reference_ = reference;
   report_ = {};
@@ -176,15 +178,15 @@ PetscErrorCode NewtonKrylov::test_convergence(SNES snes, PetscInt iteration, Pet
     petsc(SNESGetLinearSolveIterations(snes, &krylov));
     self.report_.iterations.push_back({norm, static_cast<int>(krylov) - self.krylov_before_, MPI_Wtime() - self.started_});
     self.krylov_before_ = static_cast<int>(krylov);
+    const Combination& c = self.equation_->combination;
+    const double floor = kRoundOff * (c.mass * self.volume_norm_ + c.rate * self.surface_norm_);
     if (iteration == 0) {
-      const Combination& c = self.equation_->combination;
-      const double floor = kRoundOff * (c.mass * self.volume_norm_ + c.rate * self.surface_norm_);
       self.target_ = std::max(self.options_.tolerance * std::max(norm, self.reference_), floor);
     }
     *reason = SNES_CONVERGED_ITERATING;
     if (!std::isfinite(norm))
       *reason = SNES_DIVERGED_FNORM_NAN;
-    else if (norm <= self.target_)
+    else if (norm <= (iteration < self.min_iterations_ ? floor : self.target_))
       *reason = SNES_CONVERGED_FNORM_RELATIVE;
     else if (norm > 1e4 * std::max(self.report_.iterations.front().residual, self.reference_))
       *reason = SNES_DIVERGED_DTOL;

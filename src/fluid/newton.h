@@ -51,7 +51,8 @@ class NewtonKrylov {
   void rebuild_preconditioner() { rebuild_ = true; }
 
   /// q: first guess in, solution out. Converged: |F| <= tolerance * max(|F(guess)|, reference), or at round-off.
-  NewtonReport solve(const StageEquation& equation, Vec q, double reference, int max_iterations);
+  /// With min_iterations > 0 only round-off is good enough before them.
+  NewtonReport solve(const StageEquation& equation, Vec q, double reference, int max_iterations, int min_iterations = 0);
 
  private:
   static PetscErrorCode form_function(SNES, Vec x, Vec f, void* self);
@@ -71,7 +72,7 @@ class NewtonKrylov {
   double volume_norm_ = 0, surface_norm_ = 0;  ///< sizes of the terms, for the round-off floor
   const StageEquation* equation_ = nullptr;
   double reference_ = 0, target_ = 0;
-  int max_iterations_ = 0;
+  int max_iterations_ = 0, min_iterations_ = 0;
   double started_ = 0;
   int krylov_before_ = 0;
   bool rebuild_ = true;
