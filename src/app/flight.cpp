@@ -8,8 +8,8 @@ namespace windhover::app {
 namespace {
 
 using body::LoadLayout;
-using coupling::VehicleState;
 using coupling::VectorXd;
+using coupling::VehicleState;
 
 mesh::FrameState body_frame(const Case& c, const body::Kinematics& k) {
   const Scales s(c.fluid);
@@ -49,9 +49,10 @@ Flight::Flight(const Case& c, fluid::FlowSolver& solver, const ZoneTree& zones)
 }
 
 void Flight::open(const std::filesystem::path& directory, std::optional<std::int64_t> last_step) {
-  table_.emplace(directory / "coupling.csv",
-                 std::vector<std::string>{"step", "iteration", "load_residual", "pose_residual", "relaxation", "accepted"},
-                 solver_.euler().mesh().comm, last_step);
+  table_.emplace(
+      directory / "coupling.csv",
+      std::vector<std::string>{"step", "iteration", "load_residual", "pose_residual", "relaxation", "accepted"},
+      solver_.euler().mesh().comm, last_step);
 }
 
 Flight::Result Flight::advance(double dt) {
@@ -61,7 +62,8 @@ Flight::Result Flight::advance(double dt) {
   const double step = static_cast<double>(solver_.state().step + !result.accepted);
   for (size_t i = 0; i < result.iterations.size(); ++i) {
     const coupling::Iteration& it = result.iterations[i];
-    table_->append(std::vector<double>{step, double(i + 1), it.load_residual, it.pose_residual, it.relaxation, double(it.accepted)});
+    table_->append(std::vector<double>{step, double(i + 1), it.load_residual, it.pose_residual, it.relaxation,
+                                       double(it.accepted)});
   }
   Result r{report_, static_cast<int>(result.iterations.size())};
   r.flow.accepted = result.accepted;
@@ -69,7 +71,9 @@ Flight::Result Flight::advance(double dt) {
   return r;
 }
 
-mesh::FrameState Flight::body(const VehicleState& vehicle) const { return body_frame(case_, window_.kinematics(vehicle)); }
+mesh::FrameState Flight::body(const VehicleState& vehicle) const {
+  return body_frame(case_, window_.kinematics(vehicle));
+}
 
 fluid::Frames Flight::frames(const VehicleState& vehicle) const {
   return zones_.frames(body(vehicle), vehicle.t / scales_.time(), spins(case_, window_, vehicle));

@@ -50,10 +50,10 @@ class Flight : private coupling::FluidSide {
   const ZoneTree& zones_;
   coupling::Window window_;
   coupling::CoupledStep step_;
-  std::vector<bool> is_wall_;     ///< of each patch: its loads are the body's
-  std::vector<int> zone_rotor_;   ///< of each zone: the body's rotor that turns it, or −1
-  double dt_ = 0;                 ///< of the step begun, nondimensional
-  fluid::StepReport report_;      ///< of the latest iterate
+  std::vector<bool> is_wall_;    ///< of each patch: its loads are the body's
+  std::vector<int> zone_rotor_;  ///< of each zone: the body's rotor that turns it, or −1
+  double dt_ = 0;                ///< of the step begun, nondimensional
+  fluid::StepReport report_;     ///< of the latest iterate
   std::optional<io::CsvTable> table_;
 };
 

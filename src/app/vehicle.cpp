@@ -24,13 +24,13 @@ control::RotorModel rotor_model(const Case& c, const body::RotorOptions& rotor, 
   if (found == list.end()) throw UserError("controller.rotor: none for {} \"{}\"", key, rotor.name);
   const std::string entry = fmt::format("controller.rotor[{}].", found - list.begin());
   const ZoneOptions* zone = zone_of(c, rotor.name);
-  if (!found->position_m && !zone) throw UserError("{}position_m: is needed, since no zone is called \"{}\"", entry, rotor.name);
+  if (!found->position_m && !zone)
+    throw UserError("{}position_m: is needed, since no zone is called \"{}\"", entry, rotor.name);
   if (found->thrust_axis.norm() == 0) throw UserError("{}thrust_axis: has no direction", entry);
   model.p_GR_B = (found->position_m ? *found->position_m : zone->point_m) - c.body.center_of_gravity_m;
   model.thrust_axis_B = found->thrust_axis.normalized();
   const double along = model.thrust_axis_B.dot(rotor.spin_axis.normalized());
-  if (std::abs(along) < 1 - 1e-6)
-    throw UserError("{}thrust_axis: is not parallel to the spin axis of {}", entry, key);
+  if (std::abs(along) < 1 - 1e-6) throw UserError("{}thrust_axis: is not parallel to the spin axis of {}", entry, key);
   model.spin = along > 0 ? 1 : -1;
   model.thrust_N_s2 = found->thrust_N_s2;
   model.torque_Nm_s2 = found->torque_Nm_s2;
@@ -45,7 +45,8 @@ void validate_zones(const Case& c) {
     if (j < 0) continue;
     const ZoneOptions& zone = c.zone[i];
     if (zone_of(c, zone.parent))
-      throw UserError("zone[{}].parent: \"{}\" turns itself; a rotor of the body must be in a zone that does not", i, zone.parent);
+      throw UserError("zone[{}].parent: \"{}\" turns itself; a rotor of the body must be in a zone that does not", i,
+                      zone.parent);
     const Vec3 spin = c.body.vehicle.rotor[j].spin_axis.normalized();
     if (spin.cross(zone.axis.normalized()).norm() > 1e-6)
       throw UserError("body.rotor[{}].spin_axis: is not parallel to the axis of the zone \"{}\"", j, zone.name);

@@ -27,8 +27,7 @@ void for_each_block(Eigen::Index size, F f) {
 /// One step's fixed point: counts, judges, and keeps the candidate that would be accepted.
 class CoupledStep::Problem : public FixedPoint {
  public:
-  Problem(CoupledStep& step, double end)
-      : step_(step), start_(step.state_.vehicle), end_(end), scale_(least_scale()) {
+  Problem(CoupledStep& step, double end) : step_(step), start_(step.state_.vehicle), end_(end), scale_(least_scale()) {
     for (const auto& point : step.state_.loads) widen_scale(point.loads);
     known_ = step.state_.loads.back().loads;
   }
@@ -60,8 +59,8 @@ class CoupledStep::Problem : public FixedPoint {
     } catch (const SolverFailure& failure) {
       return lost(failure.what());
     }
-    answer_ = step_.fluid_.iterate([&](double part) { return state_at(part, loads); },
-                                   iterates ? o.newton_per_iteration : 0);
+    answer_ =
+        step_.fluid_.iterate([&](double part) { return state_at(part, loads); }, iterates ? o.newton_per_iteration : 0);
     if (answer_.failed) return lost(answer_.reason);
     if (!answer_.loads.allFinite()) return lost("the loads are no numbers");
     widen_scale(answer_.loads);
@@ -77,14 +76,15 @@ class CoupledStep::Problem : public FixedPoint {
     } catch (const SolverFailure& failure) {
       return lost(failure.what());
     }
-    iteration.accepted = answer_.converged && iteration.load_residual <= o.tolerance &&
-                         iteration.pose_residual <= o.pose_tolerance;
+    iteration.accepted =
+        answer_.converged && iteration.load_residual <= o.tolerance && iteration.pose_residual <= o.pose_tolerance;
     if (iteration.accepted) return false;
     if (static_cast<int>(result_.iterations.size()) + 1 >= o.max_iterations)
-      return lost(fmt::format("no agreement of vehicle and air after {} coupling iterations: loads differ by {:.2g}, "
-                              "poses by {:.2g}{}",
-                              o.max_iterations, iteration.load_residual, iteration.pose_residual,
-                              answer_.converged ? "" : ", and the flow is not solved"));
+      return lost(
+          fmt::format("no agreement of vehicle and air after {} coupling iterations: loads differ by {:.2g}, "
+                      "poses by {:.2g}{}",
+                      o.max_iterations, iteration.load_residual, iteration.pose_residual,
+                      answer_.converged ? "" : ", and the flow is not solved"));
     return true;
   }
 
@@ -108,7 +108,8 @@ class CoupledStep::Problem : public FixedPoint {
     const CouplingOptions& o = step_.options_;
     const body::Vehicle& vehicle = step_.window_.vehicle().vehicle();
     const double weight = vehicle.mass * vehicle.gravity_W.norm();
-    const double force = o.force_scale_N > 0 ? o.force_scale_N : std::max(kLeastPartOfWeight * weight, step_.reference_.force);
+    const double force =
+        o.force_scale_N > 0 ? o.force_scale_N : std::max(kLeastPartOfWeight * weight, step_.reference_.force);
     const double moment = o.moment_scale_Nm > 0 ? o.moment_scale_Nm : force * step_.reference_.length;
     VectorXd scale = VectorXd::Constant(step_.window_.interface_size(), moment);
     scale.segment<3>(LoadLayout::force).setConstant(force);

@@ -25,7 +25,7 @@ class FluidSide {
     bool converged = false;  ///< the flow's equations hold to their tolerance
     bool failed = false;     ///< and going on would not help
     std::string reason;
-    VectorXd loads;          ///< at the end of the step
+    VectorXd loads;  ///< at the end of the step
   };
   /// Improves the flow at the end of the step for this motion, with at most `newton` iterations (0: until it is solved).
   virtual Answer iterate(const Trajectory& motion, int newton) = 0;

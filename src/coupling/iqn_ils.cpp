@@ -115,7 +115,7 @@ class IqnIls : public Scheme {
 
   CouplingOptions options_;
   int size_;
-  std::deque<Column> current_;            ///< of this step, newest first
+  std::deque<Column> current_;           ///< of this step, newest first
   std::deque<std::deque<Column>> kept_;  ///< of accepted steps, newest first
 };
 

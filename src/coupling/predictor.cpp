@@ -15,7 +15,8 @@ constexpr Rule kRules[] = {{2, -1, 0}, {3, -3, 1}, {1, 1, -1}};
 
 VectorXd apply(const Rule& rule, std::span<const Point> known) {
   const size_t n = known.size();
-  return rule.weight[0] * known[n - 1].loads + rule.weight[1] * known[n - 2].loads + rule.weight[2] * known[n - 3].loads;
+  return rule.weight[0] * known[n - 1].loads + rule.weight[1] * known[n - 2].loads +
+         rule.weight[2] * known[n - 3].loads;
 }
 
 bool equal_steps(std::span<const Point> known, double end) {

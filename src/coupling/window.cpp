@@ -81,8 +81,10 @@ double Window::pose_difference(const VehicleState& start, const VehicleState& a,
     return difference / std::max(speed * dt, kLeastMotion * least);
   };
   const Eigen::Quaterniond turn(body::Mat3(other.R_WB.transpose() * to.R_WB));
-  double largest = relative((other.p_WoG_W - to.p_WoG_W).norm(), std::max(from.v_WG_W.norm(), to.v_WG_W.norm()), length);
-  largest = std::max(largest, relative(2 * turn.vec().norm(), std::max(from.omega_WB_B.norm(), to.omega_WB_B.norm()), 1));
+  double largest =
+      relative((other.p_WoG_W - to.p_WoG_W).norm(), std::max(from.v_WG_W.norm(), to.v_WG_W.norm()), length);
+  largest =
+      std::max(largest, relative(2 * turn.vec().norm(), std::max(from.omega_WB_B.norm(), to.omega_WB_B.norm()), 1));
   for (int j = 0; j < vehicle_.rotors(); ++j)
     largest = std::max(largest, relative(std::abs(rotor_angle(a, j) - rotor_angle(b, j)),
                                          std::max(std::abs(rotor_speed(start, j)), std::abs(rotor_speed(b, j))), 1));

@@ -12,7 +12,8 @@ namespace windhover::coupling {
 /// F = -(U - w - 2z), z' = w, w' = U - 2w - 2z: the force -s U (1 + s)/(2 + 2s + s^2) of numerics.md.
 class AcousticSphere : public FluidSide {
  public:
-  explicit AcousticSphere(const Window& window, double newton_error = 0) : window_(window), newton_error_(newton_error) {}
+  explicit AcousticSphere(const Window& window, double newton_error = 0)
+      : window_(window), newton_error_(newton_error) {}
 
   VectorXd loads(const VehicleState& vehicle) override { return load(velocity(vehicle), now_); }
   void begin(const Trajectory& motion, double dt) override {
