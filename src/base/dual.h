@@ -61,6 +61,18 @@ Dual<T> sqrt(const Dual<T>& a) {
 }
 
 template <class T>
+Dual<T> reciprocal(const Dual<T>& a) {
+  const T q = reciprocal(a.v);
+  return {q, -(q * q * a.d)};
+}
+
+template <class T>
+Dual<T> inverse_sqrt(const Dual<T>& a) {
+  const T q = inverse_sqrt(a.v);
+  return {q, -0.5 * (q * q * q) * a.d};
+}
+
+template <class T>
 Dual<T> power(const Dual<T>& a, double exponent) {
   const T value = power(a.v, exponent);
   return {value, exponent * value / a.v * a.d};

@@ -3,6 +3,7 @@
 #pragma once
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 namespace windhover {
 
@@ -14,9 +15,14 @@ struct Pack {
   Vector v;
 
   Pack() = default;
-  Pack(double s) : v(Vector{} + s) {}
+  Pack(double s) : v{s, s, s, s, s, s, s, s} {}
   Pack(Vector x) : v(x) {}
   static Pack load(const double* p) { return *reinterpret_cast<const Vector*>(p); }  // 64-byte aligned
+  static Pack load_unaligned(const double* p) {
+    Pack x;
+    std::memcpy(&x.v, p, sizeof x.v);
+    return x;
+  }
   void store(double* p) const { *reinterpret_cast<Vector*>(p) = v; }
   double operator[](int i) const { return v[i]; }
 
@@ -38,6 +44,11 @@ inline Pack sqrt(Pack a) {
   for (int i = 0; i < Pack::size; ++i) r.v[i] = std::sqrt(a.v[i]);
   return r;
 }
+
+inline Pack reciprocal(Pack a) { return 1.0 / a; }
+inline Pack inverse_sqrt(Pack a) { return 1.0 / sqrt(a); }
+inline double reciprocal(double a) { return 1.0 / a; }
+inline double inverse_sqrt(double a) { return 1.0 / std::sqrt(a); }
 
 inline Pack power(Pack a, double exponent) {
   Pack r;

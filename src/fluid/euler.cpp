@@ -34,13 +34,26 @@ std::vector<std::optional<BoundaryKind>> resolve_patches(const mesh::Mesh& mesh,
   return kinds;
 }
 
-/// Eight consecutive cells of five values each, as columns.
-void load_columns(const double* q, int count, Pack columns[8]) {
-  alignas(64) double rows[8][8] = {};
-  for (int j = 0; j < 8; ++j) std::memcpy(rows[j], q + 5 * std::min(j, count - 1), 5 * sizeof(double));
-  Pack packed[8];
-  for (int j = 0; j < 8; ++j) packed[j] = Pack::load(rows[j]);
-  transpose(packed, columns);
+/// Eight items of N numbers each, one after the other: those in the array, or a copy padded with zeros where fewer than
+/// eight or what is read after them would lie beyond the array's end.
+template <int N>
+struct Eight {
+  double copy[8 * N + 8];
+  const double* first;
+
+  Eight(const double* data, mesh::Index left) : first(data) {
+    if (left > 8) return;
+    std::fill(std::begin(copy), std::end(copy), 0.0);
+    std::copy_n(data, N * left, copy);
+    first = copy;
+  }
+};
+
+/// Eight cells of five values each, as columns (the last three mean nothing).
+void load_columns(const double* q, Pack columns[8]) {
+  Pack rows[8];
+  for (int j = 0; j < 8; ++j) rows[j] = Pack::load_unaligned(q + kVariables * j);
+  transpose(rows, columns);
 }
 
 /// M², squared speed relative to the moving cell over the speed of sound squared, led smoothly to its bound of 1:
@@ -49,8 +62,8 @@ template <class T>
 T bounded_mach_squared(const State<T>& s, const Pack grid[3], double gamma) {
   using std::sqrt;
   const T u = s.u - grid[0], v = s.v - grid[1], w = s.w - grid[2];
-  const T m2 = (u * u + v * v + w * w) * s.rho / (gamma * s.p), m4 = m2 * m2;
-  return m2 / sqrt(sqrt(1.0 + m4 * m4));
+  const T m2 = (u * u + v * v + w * w) * s.rho * reciprocal(gamma * s.p), m4 = m2 * m2;
+  return m2 * inverse_sqrt(sqrt(1.0 + m4 * m4));
 }
 
 /// Velocity of the zone's points: V + spin r with r in the zone's axes.
@@ -61,22 +74,21 @@ struct GridVelocity {
   explicit GridVelocity(const FrameState& f) : V(f.V) {
     for (int k = 0; k < 3; ++k) spin.col(k) = f.omega.cross(f.R.col(k));
   }
-  void at(const Vec3* r, int count, Pack out[3]) const {
-    for (int i = 0; i < 3; ++i) {
-      alignas(64) double x[3][8];
-      for (int j = 0; j < 8; ++j)
-        for (int k = 0; k < 3; ++k) x[k][j] = r[std::min(j, count - 1)][k];
-      if (i == 0)
-        for (int k = 0; k < 3; ++k) out[k] = V[k];
-      out[0] += spin(0, i) * Pack::load(x[i]);
-      out[1] += spin(1, i) * Pack::load(x[i]);
-      out[2] += spin(2, i) * Pack::load(x[i]);
-    }
+  /// At eight points.
+  void at(const double* r, Pack out[3]) const {
+    const auto a = Pack::load_unaligned(r).v, b = Pack::load_unaligned(r + 8).v, c = Pack::load_unaligned(r + 16).v;
+    const auto ab_x = __builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, 0, 0);
+    const auto ab_y = __builtin_shufflevector(a, b, 1, 4, 7, 10, 13, 0, 0, 0);
+    const auto ab_z = __builtin_shufflevector(a, b, 2, 5, 8, 11, 14, 0, 0, 0);
+    const Pack x = __builtin_shufflevector(ab_x, c, 0, 1, 2, 3, 4, 5, 10, 13);
+    const Pack y = __builtin_shufflevector(ab_y, c, 0, 1, 2, 3, 4, 8, 11, 14);
+    const Pack z = __builtin_shufflevector(ab_z, c, 0, 1, 2, 3, 4, 9, 12, 15);
+    for (int i = 0; i < 3; ++i) out[i] = V[i] + spin(i, 0) * x + spin(i, 1) * y + spin(i, 2) * z;
   }
 };
 
 template <class T>
-void make_rows(const T q[5], const Pack grid[3], bool use_mach, double gamma, T rows[8]) {
+inline void make_rows(const T q[5], const Pack grid[3], bool use_mach, double gamma, T rows[8]) {
   const State<T> s = primitive(q, gamma);
   rows[0] = s.rho, rows[1] = s.u, rows[2] = s.v, rows[3] = s.w, rows[4] = s.p;
   rows[kMach] = use_mach ? bounded_mach_squared(s, grid, gamma) : T(1.0);
@@ -91,8 +103,7 @@ void store_rows(const Pack columns[8], int count, Row* out) {
 
 }  // namespace
 
-EulerOperator::EulerOperator(const mesh::Mesh& mesh, FlowModel model,
-                             std::vector<mesh::SlidingInterface> interfaces)
+EulerOperator::EulerOperator(const mesh::Mesh& mesh, FlowModel model, std::vector<mesh::SlidingInterface> interfaces)
     : mesh_(mesh),
       model_(std::move(model)),
       sliding_(mesh_, std::move(interfaces)),
@@ -132,23 +143,22 @@ void EulerOperator::load_cells(Vec q, const Frames& frames, const Vec* dq, std::
   for (size_t z = 0; z < frames.size(); ++z) {
     const GridVelocity grid_velocity(frames[z]);
     for (mesh::Index c = zone_cells_[z].begin; c < zone_cells_[z].end; c += 8) {
+      const mesh::Index left = mesh_.n_owned - c;
       const int count = std::min<int>(8, zone_cells_[z].end - c);
-      Pack grid[3], columns[8];
-      grid_velocity.at(&mesh_.centroid[c], count, grid);
-      load_columns(values + 5 * c, count, columns);
+      Pack grid[3], columns[8], out[8];
+      grid_velocity.at(Eight<3>(mesh_.centroid[c].data(), left).first, grid);
+      load_columns(Eight<5>(values + 5 * c, left).first, columns);
       if (!dq) {
-        Pack out[8];
         make_rows(columns, grid, use_mach, model_.gamma, out);
-        store_rows(out, count, &rows[c]);
       } else {
-        Pack along[8], part[8];
-        load_columns(derivatives + 5 * c, count, along);
-        Dual<Pack> dual[5], out[8];
+        Pack along[8];
+        load_columns(Eight<5>(derivatives + 5 * c, left).first, along);
+        Dual<Pack> dual[5], rows_of_dual[8];
         for (int k = 0; k < 5; ++k) dual[k] = {columns[k], along[k]};
-        make_rows(dual, grid, use_mach, model_.gamma, out);
-        for (int k = 0; k < 8; ++k) part[k] = out[k].d;
-        store_rows(part, count, &rows[c]);
+        make_rows(dual, grid, use_mach, model_.gamma, rows_of_dual);
+        for (int k = 0; k < 8; ++k) out[k] = rows_of_dual[k].d;
       }
+      store_rows(out, count, &rows[c]);
     }
   }
   petsc(VecRestoreArrayRead(q, &values));
@@ -190,7 +200,8 @@ FaceInput EulerOperator::face_input(const FrameState& frame) const {
   return in;
 }
 
-void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination) const {
+/// Leaves the rates at zero for the next sum, while they are in the cache.
+void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination) {
   double* to = nullptr;
   const double *from = nullptr, *known = nullptr;
   petsc(VecGetArrayWrite(out, &to));
@@ -198,6 +209,7 @@ void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination) 
   if (combination.known) petsc(VecGetArrayRead(combination.known, &known));
   const auto combine = [&](mesh::Index c, auto columns) {
     Pack::Vector sum = combination.rate * Pack::load(rates_[c].v).v;
+    Pack(0.0).store(rates_[c].v);
     Pack::Vector term = {};
     std::memcpy(&term, from + kVariables * c, columns * sizeof(double));
     sum += combination.mass * mesh_.volume[c] * term;
@@ -211,6 +223,7 @@ void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination) 
   const mesh::Index safe = std::max<mesh::Index>(0, mesh_.n_owned - 1);
   for (mesh::Index c = 0; c < safe; ++c) combine(c, std::integral_constant<int, 8>());
   for (mesh::Index c = safe; c < mesh_.n_owned; ++c) combine(c, std::integral_constant<int, kVariables>());
+  std::fill(rates_.begin() + mesh_.n_owned, rates_.end(), Row{});
   if (combination.known) petsc(VecRestoreArrayRead(combination.known, &known));
   petsc(VecRestoreArrayRead(x, &from));
   petsc(VecRestoreArrayWrite(out, &to));
@@ -224,7 +237,6 @@ void EulerOperator::prepare(Vec q, const Frames& frames) {
 }
 
 void EulerOperator::sum_rates(const Frames& frames, FluxKernels::Sum interior, BoundaryKernels::Sum boundary) {
-  std::fill(rates_.begin(), rates_.end(), Row{});
   const auto between_cells = [&](const FaceInput& in, const mesh::FaceBlock* blocks, int n) {
     interior(in, blocks, n, rates_.data());
   };

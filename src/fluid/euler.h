@@ -32,9 +32,9 @@ struct FlowModel {
 
 /// What passes through one patch per unit time, summed over ranks, inertial axes.
 struct PatchFlux {
-  Flux<double> flux{};                            ///< leaving the fluid; on walls momentum is the pressure force on the wall
-  mesh::Vec3 force = mesh::Vec3::Zero();          ///< of the pressure above the far field's, on what lies outside
-  mesh::Vec3 moment = mesh::Vec3::Zero();         ///< of that force about the inertial origin
+  Flux<double> flux{};                     ///< leaving the fluid; on walls momentum is the pressure force on the wall
+  mesh::Vec3 force = mesh::Vec3::Zero();   ///< of the pressure above the far field's, on what lies outside
+  mesh::Vec3 moment = mesh::Vec3::Zero();  ///< of that force about the inertial origin
 };
 
 /// Places beside a patch: blocks like the patch's own, of the same cells, with arms to other places.
@@ -74,7 +74,8 @@ class EulerOperator {
   /// One entry per mesh patch.
   std::vector<PatchFlux> patch_fluxes(Vec q, const Frames& frames);
   /// States that the boundary conditions give at each of these sets of places, in the order of its blocks' lanes.
-  std::vector<std::vector<State<double>>> surface_states(Vec q, const Frames& frames, std::span<const SurfacePoints> points);
+  std::vector<std::vector<State<double>>> surface_states(Vec q, const Frames& frames,
+                                                         std::span<const SurfacePoints> points);
   /// States at the face centroids of a patch, in the order of its blocks' lanes (owned by this rank).
   std::vector<State<double>> patch_states(Vec q, const Frames& frames, int patch);
 
@@ -109,19 +110,20 @@ class EulerOperator {
       visit(face_input(frames[sliding_.frame_zone(i)]), blocks[i].data(), static_cast<int>(blocks[i].size()));
   }
   void sum_rates(const Frames& frames, FluxKernels::Sum interior, BoundaryKernels::Sum boundary);
-  void store_rates(Vec x, Vec out, const Combination& combination) const;
+  void store_rates(Vec x, Vec out, const Combination& combination);
   void prepare(Vec q, const Frames& frames);
 
   const mesh::Mesh& mesh_;
   FlowModel model_;
   SlidingFaces sliding_;
   std::vector<std::optional<BoundaryKind>> patch_kind_;  ///< none: an interface
-  std::vector<mesh::Range> zone_cells_;  ///< owned cells of each zone
+  std::vector<mesh::Range> zone_cells_;                  ///< owned cells of each zone
   std::optional<GreenGauss> green_gauss_;
   std::optional<LeastSquares> least_squares_;
-  std::vector<Row> cells_, d_cells_, rates_;
+  std::vector<Row> cells_, d_cells_;
+  std::vector<Row> rates_;  ///< zero but between sum_rates() and store_rates()
   std::vector<GradientRow> gradients_, d_gradients_;
-  Frames frames_;  ///< of the state in cells_
+  Frames frames_;   ///< of the state in cells_
   VecHandle base_;  ///< conserved state linearised about
 };
 

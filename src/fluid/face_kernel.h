@@ -42,9 +42,9 @@ struct FaceInput {
   const GradientRow* gradients = nullptr;
   const Row* d_cells = nullptr;
   const GradientRow* d_gradients = nullptr;
-  double rotation[9];         ///< zone axes to inertial axes, row-major
-  double velocity[3];         ///< of the zone's origin, in zone axes
-  double angular_velocity[3]; ///< of the zone, in zone axes
+  double rotation[9];          ///< zone axes to inertial axes, row-major
+  double velocity[3];          ///< of the zone's origin, in zone axes
+  double angular_velocity[3];  ///< of the zone, in zone axes
   double gamma = 1.4;
   double limiter_threshold = 0;  ///< squared difference below which nothing is limited
   State<double> far{};
@@ -56,17 +56,16 @@ struct FaceGeometry {
 };
 
 inline FaceGeometry face_geometry(const FaceInput& in, const mesh::FaceBlock& b) {
-  using std::sqrt;
   Pack a[3], m[3];
   for (int k = 0; k < 3; ++k) a[k] = Pack::load(b.area[k]), m[k] = Pack::load(b.moment[k]);
   const Pack swept = in.velocity[0] * a[0] + in.velocity[1] * a[1] + in.velocity[2] * a[2] +
                      in.angular_velocity[0] * m[0] + in.angular_velocity[1] * m[1] + in.angular_velocity[2] * m[2];
-  const Pack area = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-  const Pack inverse = 1.0 / maximum(area, Pack(1e-300));  // padding has no area
+  const Pack squared = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+  const Pack inverse = inverse_sqrt(maximum(squared, Pack(1e-200)));  // padding has no area
   Pack n[3];
   for (int i = 0; i < 3; ++i)
     n[i] = inverse * (in.rotation[3 * i] * a[0] + in.rotation[3 * i + 1] * a[1] + in.rotation[3 * i + 2] * a[2]);
-  return {{n[0], n[1], n[2], inverse * swept}, area};
+  return {{n[0], n[1], n[2], inverse * swept}, squared * inverse};
 }
 
 /// Van Leer's limiter between a cell's own slope and the difference across the face, made differentiable:
@@ -76,7 +75,7 @@ inline FaceGeometry face_geometry(const FaceInput& in, const mesh::FaceBlock& b)
 template <class T>
 std::array<T, 2> limited_fractions(const T& slope_l, const T& slope_r, const T& difference, double threshold) {
   const T size_l = slope_l * slope_l + threshold, size_r = slope_r * slope_r + threshold;
-  const T inverse = 1.0 / (size_l * size_r);
+  const T inverse = reciprocal(size_l * size_r);
   const auto fraction = [&](const T& slope, const T& other_size) {
     const T gap = slope - difference;
     const T t = maximum(T(1.0) - gap * gap * (inverse * other_size), T(0.0));
@@ -110,7 +109,9 @@ struct Rows<Pack> {
 
 template <>
 struct Rows<Dual<Pack>> {
-  static Dual<Pack> cell(const FaceInput& in, int c) { return {Pack::load(in.cells[c].v), Pack::load(in.d_cells[c].v)}; }
+  static Dual<Pack> cell(const FaceInput& in, int c) {
+    return {Pack::load(in.cells[c].v), Pack::load(in.d_cells[c].v)};
+  }
   static Dual<Pack> slope(const FaceInput& in, int c, const double* arm) {
     return {change(in.gradients[c], arm), change(in.d_gradients[c], arm)};
   }
@@ -148,8 +149,8 @@ std::array<T, 2> limited_face_rows(const FaceInput& in, const mesh::FaceBlock& b
   const T own_l = Rows<T>::cell(in, l), own_r = Rows<T>::cell(in, r);
   const T change_l = Rows<T>::slope(in, l, arm_l), change_r = Rows<T>::slope(in, r, arm_r);
   // from the left centroid to the right one: along the own arm to the face, and back along the other's
-  const auto fraction = limited_fractions(change_l - Rows<T>::slope(in, l, arm_r), Rows<T>::slope(in, r, arm_l) - change_r,
-                                          own_r - own_l, in.limiter_threshold);
+  const auto fraction = limited_fractions(change_l - Rows<T>::slope(in, l, arm_r),
+                                          Rows<T>::slope(in, r, arm_l) - change_r, own_r - own_l, in.limiter_threshold);
   return {maximum(own_l + fraction[0] * change_l, least_row(own_l)),
           maximum(own_r + fraction[1] * change_r, least_row(own_r))};
 }
@@ -201,14 +202,21 @@ void flux_rows(const Flux<T>& f, const Pack& area, Pack rows[8]) {
   transpose(columns, rows);
 }
 
-/// The next block's cells are scattered in memory: ask for them while this block is worked on.
+/// Asks for what the next blocks need while this one is worked on: the geometry of the third block from here, and the
+/// next block's cells, which are scattered in memory. The processor's own prefetching finds neither in time.
 template <Reconstruction R, class T>
-void prefetch(const FaceInput& in, const mesh::FaceBlock& b) {
+void prefetch(const FaceInput& in, const mesh::FaceBlock* blocks, int left, const Row* rates) {
   constexpr bool dual = !std::is_same_v<T, Pack>;
+  constexpr int kDoubles = sizeof(mesh::FaceBlock) / sizeof(double);
+  if (left > 3)
+    for (int k = 0; k < kDoubles; k += 8) __builtin_prefetch(reinterpret_cast<const double*>(blocks + 3) + k);
+  if (left < 2) return;
+  const mesh::FaceBlock& b = blocks[1];
   for (int side = 0; side < 2; ++side)
     for (int i = 0; i < mesh::kLanes; ++i) {
       const int c = b.cell[side][i];
       __builtin_prefetch(&in.cells[c]);
+      __builtin_prefetch(&rates[c], 1);
       if constexpr (dual) __builtin_prefetch(&in.d_cells[c]);
       if constexpr (R != Reconstruction::first_order)
         for (int half = 0; half < 16; half += 8) {
@@ -225,7 +233,7 @@ template <class FluxScheme, Reconstruction R, class T>
 [[gnu::flatten]] void sum_interior(const FaceInput& in, const mesh::FaceBlock* blocks, int count, Row* rates) {
   for (int k = 0; k < count; ++k) {
     const mesh::FaceBlock& b = blocks[k];
-    if (k + 1 < count) prefetch<R, T>(in, blocks[k + 1]);
+    prefetch<R, T>(in, blocks + k, count - k, rates);
     const FaceGeometry face = face_geometry(in, b);
     const auto [l, r] = face_sides<R, T>(in, b);
     const T mach = face_mach(l.mach_squared, r.mach_squared);
@@ -244,7 +252,8 @@ State<T> boundary_state(BoundaryKind kind, const State<T>& s, const FaceInput& i
 }
 
 template <Reconstruction R, class T>
-[[gnu::flatten]] void sum_boundary(const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int count, Row* rates) {
+[[gnu::flatten]] void sum_boundary(const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int count,
+                                   Row* rates) {
   for (int k = 0; k < count; ++k) {
     const mesh::FaceBlock& b = blocks[k];
     const FaceGeometry face = face_geometry(in, b);

@@ -20,21 +20,20 @@ struct Roe {
   }
 
   template <class T, class G>
-  static Flux<T> dissipation(const State<T>& l, const State<T>& r, const FaceNormal<G>& n, const T& mach, double gamma) {
-    using std::sqrt;
-    // Roe's averages
-    const T root_l = sqrt(l.rho), root_r = sqrt(r.rho);
-    const T weight = root_r / (root_l + root_r);
+  static Flux<T> dissipation(const State<T>& l, const State<T>& r, const FaceNormal<G>& n, const T& mach,
+                             double gamma) {
+    // Roe's averages; √ρr / (√ρl + √ρr) = ρ / (ρl + ρ)
+    const T inverse_rho = inverse_sqrt(l.rho * r.rho), rho = l.rho * r.rho * inverse_rho;
+    const T weight = rho * reciprocal(l.rho + rho);
     const auto mean = [&weight](const T& a, const T& b) { return a + weight * (b - a); };
     const double g = gamma / (gamma - 1.0);
-    const T inverse_rho = 1.0 / (l.rho * r.rho);  // one division for both sides
+    const T inverse_both = inverse_rho * inverse_rho;  // 1/(ρl ρr)
     const T u = mean(l.u, r.u), v = mean(l.v, r.v), w = mean(l.w, r.w);
-    const T enthalpy = mean(g * (l.p * r.rho * inverse_rho) + 0.5 * speed_squared(l),
-                            g * (r.p * l.rho * inverse_rho) + 0.5 * speed_squared(r));
+    const T enthalpy = mean(g * (l.p * r.rho * inverse_both) + 0.5 * speed_squared(l),
+                            g * (r.p * l.rho * inverse_both) + 0.5 * speed_squared(r));
     const T kinetic = 0.5 * (u * u + v * v + w * w);
-    const T c = sqrt((gamma - 1.0) * (enthalpy - kinetic));
-    const T inverse_c = 1.0 / c;
-    const T rho = root_l * root_r;
+    const T c_squared = (gamma - 1.0) * (enthalpy - kinetic);
+    const T inverse_c = inverse_sqrt(c_squared), c = c_squared * inverse_c;
     const T un = u * n.x + v * n.y + w * n.z;
     const T relative = un - n.grid_speed;
 
@@ -47,8 +46,9 @@ struct Roe {
     const T fast = rounded(relative + c, 0.1 * c, 10.0 * inverse_c) * half * (dp + jump);
     // rounded off below the velocity's jump, as Harten and Hyman (1983) do for sonic points: without it Newton's method
     // cycles in cells where the flow turns over a face. Jumps are of second order in smooth flow, this of fourth
-    const T shift = sqrt(du * du + dv * dv + dw * dw + 1e-12 * (c * c));
-    const T contact_speed = rounded(relative, shift, 1.0 / shift);
+    const T shift_squared = du * du + dv * dv + dw * dw + 1e-12 * (c * c);
+    const T inverse_shift = inverse_sqrt(shift_squared);
+    const T contact_speed = rounded(relative, shift_squared * inverse_shift, inverse_shift);
     const T entropy = contact_speed * (r.rho - l.rho - 2.0 * half * dp);
     const T shear = contact_speed * rho;
 

@@ -1,5 +1,6 @@
 // A perfect gas and its states. Everything nondimensional: density by rho_inf, velocity by c_inf, pressure by rho_inf c_inf^2.
 #pragma once
+#include "base/dual.h"
 
 namespace windhover::fluid {
 
@@ -44,7 +45,7 @@ T total_energy(const State<T>& s, double gamma) {
 /// Conserved (rho, rho u, rho v, rho w, e) to primitive.
 template <class T>
 State<T> primitive(const T q[kVariables], double gamma) {
-  const T inverse = 1.0 / q[0];
+  const T inverse = reciprocal(q[0]);
   State<T> s{q[0], q[1] * inverse, q[2] * inverse, q[3] * inverse, q[4]};
   s.p = (gamma - 1.0) * (q[4] - 0.5 * q[0] * speed_squared(s));
   return s;

@@ -124,14 +124,24 @@ GreenGauss::GreenGauss(const Mesh& m) {
 }
 
 void GreenGauss::apply(const Row* cells, GradientRow* gradients) const {
+  constexpr int kEntriesAhead = 64, kCellsAhead = 12;  // asked for before they are needed
+  const int last_entry = static_cast<int>(node_cell_.size()) - 1;
   const int n_nodes = static_cast<int>(node_rows_.size());
   for (int i = 0; i < n_nodes; ++i) {
     Pack sum(0.0);
-    for (int k = node_start_[i]; k < node_start_[i + 1]; ++k) sum += node_weight_[k] * Pack::load(cells[node_cell_[k]].v);
+    for (int k = node_start_[i]; k < node_start_[i + 1]; ++k) {
+      __builtin_prefetch(&cells[node_cell_[std::min(k + kEntriesAhead, last_entry)]]);
+      sum += node_weight_[k] * Pack::load(cells[node_cell_[k]].v);
+    }
     sum.store(node_rows_[i].v);
   }
   const int n_cells = static_cast<int>(cell_start_.size()) - 1;
   for (int c = 0; c < n_cells; ++c) {
+    const int ahead = std::min(c + kCellsAhead, n_cells - 1);
+    for (int half = 0; half < 16; half += 8) {
+      __builtin_prefetch(gradients[ahead].v + half, 1);
+      __builtin_prefetch(coefficient_[cell_start_[ahead]].data() + half);
+    }
     Pack g[3] = {0.0, 0.0, 0.0};
     for (int k = cell_start_[c]; k < cell_start_[c + 1]; ++k) {
       const Pack row = Pack::load(node_rows_[cell_node_[k]].v);
@@ -158,13 +168,15 @@ LeastSquares::LeastSquares(const Mesh& m, std::vector<int> cells) : cell_(std::m
   const NodeCells nodes = collect_node_cells(m);
   start_.push_back(0);
   for (const int c : cell_) {
-    std::map<int, Vec3> offset;  // neighbour → its centroid from here (through the shared node, so across periodic faces)
+    std::map<int, Vec3>
+        offset;  // neighbour → its centroid from here (through the shared node, so across periodic faces)
     for (Index k = m.cell_point_start[c]; k < m.cell_point_start[c + 1]; ++k) {
       const Index point = m.cell_point[k];
       const int node = nodes.used[m.point_node[point]];
       for (int j = nodes.start[node]; j < nodes.start[node + 1]; ++j)
         if (nodes.cell[j] != c)
-          offset[nodes.cell[j]] = (m.centroid[nodes.cell[j]] - m.point[nodes.point[j]]) + (m.point[point] - m.centroid[c]);
+          offset[nodes.cell[j]] =
+              (m.centroid[nodes.cell[j]] - m.point[nodes.point[j]]) + (m.point[point] - m.centroid[c]);
     }
     Mat3 normal = Mat3::Zero();
     for (const auto& [other, d] : offset) normal += d * d.transpose() / d.squaredNorm();
