@@ -8,6 +8,9 @@ namespace windhover::mesh {
 BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
   std::iota(order_.begin(), order_.end(), 0);
   if (!boxes_.empty()) build(0, static_cast<int>(boxes_.size()));
+  std::vector<Box> in_order;
+  for (const int i : order_) in_order.push_back(boxes_[i]);
+  boxes_ = std::move(in_order);
 }
 
 void BoxTree::build(int begin, int end) {
@@ -40,7 +43,7 @@ void BoxTree::find(const Box& box, std::vector<int>& found) const {
       continue;
     }
     for (int k = node.begin; k < node.end; ++k)
-      if (boxes_[order_[k]].intersects(box)) found.push_back(order_[k]);
+      if (boxes_[k].intersects(box)) found.push_back(order_[k]);
   }
   std::sort(found.begin(), found.end());
 }

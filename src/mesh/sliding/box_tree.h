@@ -23,7 +23,7 @@ class BoxTree {
   };
   void build(int begin, int end);
 
-  std::vector<Box> boxes_;
+  std::vector<Box> boxes_;  ///< once built: by order_
   std::vector<int> order_;
   std::vector<Node> nodes_;
 };

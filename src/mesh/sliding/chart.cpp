@@ -49,28 +49,28 @@ ChartFace chart_face(const Chart& chart, std::span<const Vec3> corners, std::spa
       face.outline.add(tangent_point(a, b));
       face.rim = true;
     } else {
-      face.lines[face.n_lines++] = {a, b - a};
+      face.lines[face.n_lines++] = ChartLine::through(a, b);
     }
   }
   return face;
 }
 
-Polygon clip(const Chart& chart, std::span<const Vec3> polygon, const ChartLine& line) {
+void clip(const Chart& chart, Polygon& polygon, const ChartLine& line) {
+  std::array<double, 40> side;
+  int n_left = 0;
+  for (int k = 0; k < polygon.n; ++k) n_left += (side[k] = line.side(polygon.v[k])) >= 0;
+  if (n_left == polygon.n) return;
   Polygon rest;
-  if (polygon.empty()) return rest;
-  const Vec3* from = &polygon.back();
-  double from_side = line.side(*from);
-  for (const Vec3& to : polygon) {
-    const double to_side = line.side(to);
-    if ((from_side < 0) != (to_side < 0)) {
-      const Vec3 cut = *from + (from_side / (from_side - to_side)) * (to - *from);
+  for (int k = 0; n_left > 0 && k < polygon.n; ++k) {
+    const int before = k > 0 ? k - 1 : polygon.n - 1;
+    const Vec3 &from = polygon.v[before], &to = polygon.v[k];
+    if ((side[before] < 0) != (side[k] < 0)) {
+      const Vec3 cut = from + (side[before] / (side[before] - side[k])) * (to - from);
       rest.add(chart.part == Part::sphere ? cut.normalized() : cut);
     }
-    if (to_side >= 0) rest.add(to);
-    from = &to;
-    from_side = to_side;
+    if (side[k] >= 0) rest.add(to);
   }
-  return rest;
+  polygon.assign(rest);
 }
 
 }  // namespace windhover::mesh

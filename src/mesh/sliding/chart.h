@@ -1,5 +1,6 @@
 // Faces on Γ in coordinates in which their edges are straight, and exact integrals over polygons there.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <span>
@@ -28,15 +29,21 @@ struct Corners {
     assert(n < capacity);
     v[n++] = p;
   }
+  void assign(std::span<const Vec3> points) {
+    assert(points.size() <= capacity);
+    std::copy(points.begin(), points.end(), v.begin());
+    n = static_cast<int>(points.size());
+  }
   operator std::span<const Vec3>() const { return std::span(v).first(n); }
 };
 using Outline = Corners<8>;   // a quadrilateral with four arcs
 using Polygon = Corners<40>;  // an outline clipped by four lines, each of which adds a half at most
 
-/// A line of a chart: points p with det(from, along, p - from) >= 0 are on its left.
+/// A line of a chart: points p with det(from, to, p) >= 0 are on its left.
 struct ChartLine {
-  Vec3 from, along;
-  double side(const Vec3& p) const { return from.dot(along.cross(p - from)); }
+  Vec3 from, normal;
+  static ChartLine through(const Vec3& from, const Vec3& to) { return {from, from.cross(to - from)}; }
+  double side(const Vec3& p) const { return normal.dot(p - from); }
 };
 
 /// A face is its outline, cut by the rim where it has arcs: there the outline runs along the rim's tangents, outside the disc.
@@ -63,6 +70,6 @@ struct PatchIntegrals {
 PatchIntegrals integrate(const Chart& chart, std::span<const Vec3> polygon, bool rim);
 
 /// Cuts away what is right of the line.
-Polygon clip(const Chart& chart, std::span<const Vec3> polygon, const ChartLine& line);
+void clip(const Chart& chart, Polygon& polygon, const ChartLine& line);
 
 }  // namespace windhover::mesh

@@ -1,6 +1,7 @@
 // Exact integrals over polygons of the charts, by their boundaries. All are taken relative to a point of the polygon,
 // so that small pieces are as exact, relative to their own size, as large ones.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mesh/sliding/chart.h"
@@ -93,12 +94,19 @@ struct EdgeMeans {
   explicit EdgeMeans(double h) {
     double term = 1;  // h^2k / (2k)!
     for (int k = 0; std::abs(term) > 1e-18; ++k) {
-      c0 += term / (2 * k + 1);
-      c2 += term / (2 * k + 3);
-      s1 += term * h / ((2 * k + 1) * (2 * k + 3));
-      term *= -h * h / ((2 * k + 1) * (2 * k + 2));
+      c0 += term * inverse[2 * k + 1];
+      c2 += term * inverse[2 * k + 3];
+      s1 += term * h * inverse[2 * k + 1] * inverse[2 * k + 3];
+      term *= -h * h * inverse[2 * k + 1] * inverse[2 * k + 2];
     }
   }
+
+ private:
+  static constexpr auto inverse = [] {  // enough for 2h = 2π
+    std::array<double, 64> a{};
+    for (int i = 1; i < 64; ++i) a[i] = 1.0 / i;
+    return a;
+  }();
 };
 
 /// Green's theorem in (angle, z): ∫∫ f(angle) z^k R = −∮ f z^(k+1) / (k+1) R dangle. With n = e_r: ∫ n dA, and

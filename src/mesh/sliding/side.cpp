@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <tuple>
@@ -19,10 +20,21 @@ struct RawFace {
   Index cell = 0;
   int n = 0;
   double corner[4][3] = {};
-  auto order() const { return std::tuple(file_cell, side); }
+  std::uint64_t place = 0;  ///< along a curve that fills space, so that faces near each other are near in memory
+  auto order() const { return std::tuple(place, file_cell, side); }
 };
 
-std::vector<RawFace> own_faces(const Mesh& mesh, int patch) {
+/// Morton's curve through the cube of edge 4 · size about the origin.
+std::uint64_t place_on_curve(const Vec3& r, double size) {
+  std::uint64_t place = 0;
+  for (int d = 0; d < 3; ++d) {
+    const auto along = static_cast<std::uint64_t>(std::clamp((r[d] / size + 2) / 4, 0.0, 1.0) * 0xFFFFF);
+    for (int bit = 0; bit < 20; ++bit) place |= (along >> bit & 1) << (3 * bit + d);
+  }
+  return place;
+}
+
+std::vector<RawFace> own_faces(const Mesh& mesh, const RevolutionSurface& surface, int patch) {
   std::vector<RawFace> faces;
   for (const FaceBlock& block : mesh.patches[patch].blocks)
     for (int lane = 0; lane < block.count; ++lane) {
@@ -31,6 +43,7 @@ std::vector<RawFace> own_faces(const Mesh& mesh, int patch) {
       RawFace face{mesh.file_cell[cell], block.side[lane], rank_of(mesh.comm), cell, shape.n};
       for (int k = 0; k < shape.n; ++k)
         Eigen::Map<Vec3>(face.corner[k]) = mesh.point[mesh.cell_point[mesh.cell_point_start[cell] + shape.point[k]]];
+      face.place = place_on_curve(surface.to_local(Eigen::Map<Vec3>(face.corner[0])), surface.reach());
       faces.push_back(face);
     }
   return faces;
@@ -191,7 +204,7 @@ class SideBuilder {
     const Outline& p = face.outline;
     for (int k = 0; k < p.n; ++k) {
       const Vec3 &a = p.v[k], &b = p.v[(k + 1) % p.n], &c = p.v[(k + 2) % p.n];
-      const double turn = ChartLine{a, b - a}.side(c);
+      const double turn = ChartLine::through(a, b).side(c);
       if (turn < -1e-10 * (b - a).norm() * (c - b).norm())
         fail(middle(f), "a face is not convex on the surface, or inside out (are the two zones exchanged?)");
     }
@@ -221,7 +234,7 @@ class SideBuilder {
 }  // namespace
 
 InterfaceSide gather_side(const Mesh& mesh, const RevolutionSurface& surface, int patch, bool inner, double scale) {
-  const std::vector<RawFace> raw = gather(own_faces(mesh, patch), mesh.comm);
+  const std::vector<RawFace> raw = gather(own_faces(mesh, surface, patch), mesh.comm);
   return SideBuilder(mesh, surface, patch, inner, scale).build(raw);
 }
 

@@ -42,19 +42,28 @@ Polygon turned(const ChartFace& face, const Chart& chart, double angle) {
   return polygon;
 }
 
-double middle_angle(std::span<const Vec3> p) {
-  const auto [least, most] = std::ranges::minmax_element(p, {}, [](const Vec3& a) { return a.x(); });
-  return (least->x() + most->x()) / 2;
+/// Contains the face in its chart; nothing on a sphere, whose edges bulge.
+Box box_in_chart(std::span<const Vec3> outline) {
+  Box box;
+  for (const Vec3& p : outline) box.extend(p);
+  return box;
 }
 
-/// The part of the turned inner face inside the outer one.
-Polygon intersection(const Chart& chart, Polygon inner, const ChartFace& outer) {
-  if (chart.part == Part::wall) {  // the same turn of the angle for both
-    const double turns = 2 * M_PI * std::round((middle_angle(outer.outline) - middle_angle(inner)) / (2 * M_PI));
-    for (int k = 0; k < inner.n; ++k) inner.v[k].x() += turns;
-  }
-  for (int k = 0; k < outer.n_lines && inner.n > 0; ++k) inner = clip(chart, inner, outer.lines[k]);
-  return inner;
+/// The part of the turned inner face inside the outer one; both with their boxes in the chart.
+void intersect(const Chart& chart, const Polygon& inner, const Box& inner_box, const ChartFace& outer, const Box& outer_box,
+               Polygon& common) {
+  double turns = 0;
+  if (chart.part == Part::wall)  // the same turn of the angle for both
+    turns = 2 * M_PI * std::round((outer_box.center().x() - inner_box.center().x()) / (2 * M_PI));
+  common.n = 0;
+  if (chart.part != Part::sphere)
+    for (int d = 0; d < 2; ++d) {
+      const double shift = d == 0 ? turns : 0;
+      if (inner_box.min()[d] + shift > outer_box.max()[d] || inner_box.max()[d] + shift < outer_box.min()[d]) return;
+    }
+  common.assign(inner);
+  for (int k = 0; turns != 0 && k < common.n; ++k) common.v[k].x() += turns;
+  for (int k = 0; k < outer.n_lines && common.n > 0; ++k) clip(chart, common, outer.lines[k]);
 }
 
 }  // namespace
@@ -64,7 +73,9 @@ SlidingInterface::SlidingInterface(const RevolutionSurface& surface, std::array<
       sides_(std::move(sides)),
       outer_boxes_(tree_of(surface_, sides_[1])),
       comm_(comm),
-      rank_(rank_of(comm)) {}
+      rank_(rank_of(comm)) {
+  for (const ChartFace& face : sides_[1].charts) outer_in_chart_.push_back(box_in_chart(face.outline));
+}
 
 std::vector<Piece> SlidingInterface::pieces(double angle) const {
   constexpr double least = 1e-14;  // of the smaller face: below is round-off of faces that only touch
@@ -72,19 +83,22 @@ std::vector<Piece> SlidingInterface::pieces(double angle) const {
   const double cosine = std::cos(angle), sine = std::sin(angle);
   const auto& [inner, outer] = sides_;
   std::vector<Piece> pieces;
+  pieces.reserve(3 * (inner.faces.size() + outer.faces.size()) / 2);
   std::vector<int> near;
+  Polygon common;
   for (std::size_t i = 0; i < inner.faces.size(); ++i) {
     const InterfaceFace& face = inner.faces[i];
     const ChartFace& placed = inner.charts[i];
     const Chart chart{&surface_, placed.part};
     const Polygon polygon = turned(placed, chart, angle);
+    const Box box = box_in_chart(polygon);
     std::array<Vec3, 4> corners = local_corners(surface_, face);
     for (int k = 0; k < face.n; ++k) corners[k] = rotated(corners[k], cosine, sine);
     outer_boxes_.find(box_of(surface_, corners, face.n), near);
     for (const int j : near) {
       const InterfaceFace& other = outer.faces[j];
       if (outer.charts[j].part != placed.part || (face.rank != rank_ && other.rank != rank_)) continue;
-      const Polygon common = intersection(chart, polygon, outer.charts[j]);
+      intersect(chart, polygon, box, outer.charts[j], outer_in_chart_[j], common);
       const PatchIntegrals patch = integrate(chart, common, placed.rim && outer.charts[j].rim);
       if (!(patch.size > least * std::min(face.size, other.size))) continue;
       Piece piece;

@@ -47,6 +47,7 @@ class SlidingInterface {
   RevolutionSurface surface_;
   std::array<InterfaceSide, 2> sides_;
   BoxTree outer_boxes_;
+  std::vector<Box> outer_in_chart_;
   MPI_Comm comm_;
   int rank_;
 };
