@@ -10,7 +10,7 @@ struct CouplingOptions {
   double tolerance = 1e-3;
   double pose_tolerance = 1e-3;
   int max_iterations = 30;
-  int newton_per_iteration = 2;
+  int newton_per_iteration = 1;
   double relaxation = 1;
   int columns = 8;
   int reuse_steps = 4;

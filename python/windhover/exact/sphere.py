@@ -25,3 +25,22 @@ def force(times, acceleration):
         z = z + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
         values.append(-z.sum())
     return np.array(values)
+
+
+def free_oscillation(times, mass, stiffness):
+    """Displacement over its start of a sphere on a spring, released from rest at times[0] = 0; gas density 1.
+
+    The force above with the velocity as input: F = -V (U - w - 2 z), z' = w, w' = U - 2 z - 2 w, V = 4π/3.
+    """
+    volume = 4 / 3 * np.pi
+    rates = np.array(
+        [
+            [0, 1, 0, 0],
+            [-stiffness / mass, -volume / mass, 2 * volume / mass, volume / mass],
+            [0, 0, 0, 1],
+            [0, 1, -2, -2],
+        ]
+    )
+    values, vectors = np.linalg.eig(rates)
+    parts = np.linalg.solve(vectors, [1, 0, 0, 0])
+    return (np.exp(np.outer(times, values)) @ (parts * vectors[0])).real
