@@ -1,7 +1,9 @@
 #include "base/memory.h"
 
 #include <malloc.h>
+#include <sys/mman.h>
 
+#include <cstdint>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -14,6 +16,16 @@ double resident_bytes() {
   for (std::string line; std::getline(status, line);)
     if (line.rfind("VmRSS:", 0) == 0) std::istringstream(line.substr(6)) >> kilobytes;
   return 1024 * kilobytes;
+}
+
+void use_large_pages(const void* data, std::size_t bytes) {
+#ifdef __linux__
+  constexpr std::uintptr_t kPage = 2 << 20;
+  constexpr int kCollapse = 25;  // MADV_COLLAPSE, newer than the C library's headers
+  const auto begin = (reinterpret_cast<std::uintptr_t>(data) + kPage - 1) / kPage * kPage;
+  const auto end = (reinterpret_cast<std::uintptr_t>(data) + bytes) / kPage * kPage;
+  if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, kCollapse);
+#endif
 }
 
 void release_free_memory() { malloc_trim(0); }

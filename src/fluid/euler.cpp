@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "base/errors.h"
+#include "base/memory.h"
 
 namespace windhover::fluid {
 
@@ -125,6 +126,9 @@ EulerOperator::EulerOperator(const mesh::Mesh& mesh, FlowModel model, std::vecto
   }
   cells_.resize(sliding_.n_cells());
   rates_.resize(n_sides);
+  use_large_pages(cells_);
+  use_large_pages(rates_);
+  use_large_pages(gradients_);
 }
 
 VecHandle EulerOperator::make_vector() const {
@@ -258,8 +262,12 @@ void EulerOperator::linearize(Vec q, const Frames& frames) {
   if (!base_) base_ = make_vector();
   petsc(VecCopy(q, base_));
   prepare(q, frames);
-  d_cells_.resize(cells_.size());
-  d_gradients_.resize(gradients_.size());
+  if (d_cells_.empty()) {
+    d_cells_.resize(cells_.size());
+    d_gradients_.resize(gradients_.size());
+    use_large_pages(d_cells_);
+    use_large_pages(d_gradients_);
+  }
 }
 
 void EulerOperator::derivative(Vec dq, Vec out, const Combination& combination) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "base/memory.h"
 #include "mesh/cell_shape.h"
 #include "mesh/motion.h"
 
@@ -120,6 +121,11 @@ GreenGauss::GreenGauss(const Mesh& m) {
   }
   node_start_ = std::move(nodes.start);
   node_cell_ = std::move(nodes.cell);
+  use_large_pages(node_cell_);
+  use_large_pages(node_weight_);
+  use_large_pages(node_rows_);
+  use_large_pages(cell_node_);
+  use_large_pages(coefficient_);
   if (!ill_conditioned.empty()) exceptions_.emplace(m, std::move(ill_conditioned));
 }
 

@@ -132,6 +132,8 @@ Mesh build_mesh(const std::string& file, double scale, MPI_Comm comm) {
 Mesh read_mesh(const std::string& file, double scale, MPI_Comm comm) {
   Mesh mesh = build_mesh(file, scale, comm);
   release_free_memory();  // reading takes several times what is kept
+  use_large_pages(mesh.faces);
+  use_large_pages(mesh.centroid);
   return mesh;
 }
 
