@@ -4,7 +4,9 @@
 #include "app/simulation.h"
 #include "app/zone_tree.h"
 #include <fmt/format.h>
+#include <cmath>
 #include "base/memory.h"
+#include "geometry/mass.h"
 #include "mesh/quality.h"
 namespace windhover::app {
 namespace {
@@ -23,6 +25,19 @@ double time_residual(fluid::EulerOperator& euler, Vec q, const fluid::Frames& fr
 std::string place(const mesh::Worst& worst, double scale) {
   return fmt::format("at ({:.4g}, {:.4g}, {:.4g}) m", scale * worst.place.x(), scale * worst.place.y(),
                      scale * worst.place.z());
+}
+
+std::string mass_text(const Case& c) {
+  const auto mass = geometry::aircraft_mass(c.airframe, c.rotor);
+  if (mass.mass_kg == 0) return "";
+  const auto clean = [](double value) { return std::abs(value) < 1e-9 ? 0 : value; };  // sums of mirror images leave round-off
+  const auto& g = mass.center_m;
+  const auto& i = mass.inertia_kg_m2;
+  return fmt::format(
+      "parts     mass {:.4g} kg, centre of gravity ({:.4g}, {:.4g}, {:.4g}) m\n"
+      "          moments of inertia {:.4g}, {:.4g}, {:.4g}, products xy {:.3g}, xz {:.3g}, yz {:.3g} kg m²\n",
+      mass.mass_kg, clean(g.x()), clean(g.y()), clean(g.z()), i(0, 0), i(1, 1), i(2, 2), clean(-i(0, 1)), clean(-i(0, 2)),
+      clean(-i(1, 2)));
 }
 
 }  // namespace
@@ -58,6 +73,10 @@ int check_simulation(const Case& c) {
   text += fmt::format("quality   smallest edge {:.4g} m {}\n", s.length * edge.value, place(edge, s.length));
   text += fmt::format("          smallest dihedral angle {:.3g} deg {}\n", angle.value, place(angle, s.length));
   text += fmt::format("          largest volume ratio of neighbours {:.3g} {}\n", ratio.value, place(ratio, s.length));
+  const mesh::Worst& cell = quality.smallest_cell;
+  text += fmt::format("          smallest cell, root of its volume, {:.4g} m, crossed by sound in {:.3g} s {}\n", s.length * cell.value,
+                      s.time() * cell.value, place(cell, s.length));
+  text += mass_text(c);
   text += fmt::format("step      {:.6g} s, acoustic Courant number up to {:.4g}\n", step_seconds(c), courant);
   text += fmt::format("memory    about {:.3g} GB\n", (memory + later) * 1e-9);
   const int steps = step_count(c);

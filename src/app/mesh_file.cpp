@@ -146,7 +146,8 @@ void report_mesh(const Case& c) {
     if (const auto count = std::count(m.type.begin(), m.type.begin() + m.n_owned, type); count > 0)
       fmt::print(" {} {}", count, name);
   fmt::print("\n  zones:");
-  for (const auto& zone : m.zones) fmt::print(" {}", zone.name);
+  for (size_t z = 0; z < m.zones.size(); ++z)
+    fmt::print(" {} ({})", m.zones[z].name, std::count(m.cell_zone.begin(), m.cell_zone.begin() + m.n_owned, z));
   fmt::print("\n  surfaces:");
   for (const auto& patch : m.patches) fmt::print(" {}", patch.name);
   const mesh::Quality quality = mesh::measure_quality(m);
@@ -154,6 +155,8 @@ void report_mesh(const Case& c) {
   print_worst("shortest edge", quality.smallest_edge, "m");
   print_worst("smallest dihedral angle", quality.smallest_dihedral_deg, "deg");
   print_worst("largest volume ratio of neighbours", quality.largest_volume_ratio, "");
+  print_worst("smallest cell, root of volume", quality.smallest_cell, "m");
+  fmt::print("  sound crosses the smallest cell in {:.3g} s\n", quality.smallest_cell.value / c.fluid.sound_speed_m_s);
   if (quality.smallest_edge.value < c.mesh.min_edge_m)
     refuse(c, "shortest edge", quality.smallest_edge, "mesh.min_edge_m", c.mesh.min_edge_m);
   if (quality.smallest_dihedral_deg.value < c.mesh.min_dihedral_deg)

@@ -24,12 +24,14 @@ void validate_size(const PartOptions& part) {
     if (part.radius_m == 0) refuse(part, "radius_m is needed");
     if (part.from_m == part.to_m) refuse(part, "from_m and to_m are the same point");
   } else if (const Vec3& size = part.kind == "box" ? part.size_m : part.radii_m; size.minCoeff() == 0) {
-    refuse(part, "{} = [{}, {}, {}]: must be > 0", part.kind == "box" ? "size_m" : "radii_m", size.x(), size.y(), size.z());
+    refuse(part, "{} = [{}, {}, {}]: must be > 0", part.kind == "box" ? "size_m" : "radii_m", size.x(), size.y(),
+           size.z());
   }
-  const double half = part.kind == "box" ? part.size_m.minCoeff() / 2
-                                         : std::min(part.radius_m, (part.to_m - part.from_m).norm() / 2);
+  const double half =
+      part.kind == "box" ? part.size_m.minCoeff() / 2 : std::min(part.radius_m, (part.to_m - part.from_m).norm() / 2);
   if (part.rounding_m > 0.95 * half)
-    refuse(part, "rounding_m = {}: must be at most {:.4g}, 95 % of its smallest half width", part.rounding_m, 0.95 * half);
+    refuse(part, "rounding_m = {}: must be at most {:.4g}, 95 % of its smallest half width", part.rounding_m,
+           0.95 * half);
 }
 
 }  // namespace

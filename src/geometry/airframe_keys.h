@@ -39,12 +39,14 @@ void declare(V& v, PartOptions& o) {
 template <class V>
 void declare(V& v, AirframeOptions& o) {
   v.key("step", o.step, {.doc = "STEP file with one solid or several, relative to the case file"});
-  v.key("size_m", o.size_m, {.doc = "the largest size of the mesh on the airframe; 0: 3 % of its largest extent", .min = 0});
+  v.key("size_m", o.size_m,
+        {.doc = "the largest size of the mesh on the airframe; 0: 3 % of its largest extent", .min = 0});
   v.key("min_size_m", o.min_size_m, {.doc = "the smallest there; 0: an eighth of size_m", .min = 0});
   v.key("cells_per_turn", o.cells_per_turn, {.doc = "cells around a curved surface, a full turn of it", .min = 3});
   v.key("growth", o.growth, {.doc = "growth of sizes per distance", .above = 0, .max = 1});
-  v.tables("part", o.part,
-           "The solids of which the airframe is made, together with those of the STEP file. They must touch and may overlap.");
+  v.tables(
+      "part", o.part,
+      "The solids of which the airframe is made, together with those of the STEP file. They must touch and may overlap.");
 }
 
 }  // namespace windhover::geometry

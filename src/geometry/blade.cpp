@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-double half_thickness(const std::vector<Vec2>& upper, const std::vector<Vec2>& lower) {
+double half_thickness(const Airfoil& a) {
   double thickness = 0;
-  for (size_t i = 0; i < upper.size(); ++i) thickness = std::max(thickness, (upper[i] - lower[i]).norm() / 2);
+  for (size_t i = 0; i < a.upper.size(); ++i) thickness = std::max(thickness, (a.upper[i] - a.lower[i]).norm() / 2);
   return thickness;
 }
 
@@ -28,15 +28,12 @@ Eigen::Matrix3d rotor_axes(const RotorOptions& rotor) {
 }
 
 Blades::Blades(const RotorOptions& rotor, double refine) : rotor_(rotor), refine_(refine), stations_(rotor.blade) {
-  const Airfoil airfoil = make_airfoil(rotor.blade.airfoil, rotor.blade.trailing_edge_thickness);
+  airfoil_ = make_airfoil(rotor.blade.airfoil, rotor.blade.trailing_edge_thickness);
   const RotorSizeOptions& size = rotor.size;
-  chordwise_ = {length_of(airfoil.upper), size.leading_edge, size.trailing_edge, size.chord, size.growth};
-  const auto fractions = chordwise_.fractions(refine);
-  upper_ = points_at(airfoil.upper, fractions);
-  lower_ = points_at(airfoil.lower, fractions);
+  chordwise_ = {length_of(airfoil_.upper), size.leading_edge, size.trailing_edge, size.chord, size.growth};
   const bool rounded = rotor.blade.tip == "rounded";
   across_ = 2 * std::max(1, static_cast<int>(std::lround(refine * (rounded ? 2 : 1))));
-  const double R = rotor.blade.radius_m, round = rounded ? half_thickness(upper_, lower_) * R : 0;
+  const double R = rotor.blade.radius_m, round = rounded ? half_thickness(airfoil_) * R : 0;
   first_radius_ = stations_.root * R + round * stations_.chord(stations_.root);
   last_radius_ = R - round * stations_.chord(1);
   spanwise_ = {last_radius_ - first_radius_, size.root_m, size.tip_m, size.span_m, size.growth};
@@ -64,32 +61,45 @@ BladeSection Blades::local_section(double radius) const {
           .chord = stations_.chord(at) * R};
 }
 
+double Blades::coarsening(double chord) const {
+  const RotorSizeOptions& size = rotor_.size;
+  return size.smallest_m == 0 ? 1 : std::min(1.0, std::min(size.leading_edge, size.trailing_edge) * chord / size.smallest_m);
+}
+
+Airfoil Blades::points(double chord) const {
+  const auto fractions = chordwise_.fractions(refine_ * coarsening(chord));
+  return {points_at(airfoil_.upper, fractions), points_at(airfoil_.lower, fractions)};
+}
+
 /// Not much shorter than the cells along the chord; the trailing edge is one cell thick.
-int Blades::cells_across(int i) const {
-  const double thickness = (upper_[i] - lower_[i]).norm(), along = (upper_[i] - upper_[i - 1]).norm();
-  return i + 1 == static_cast<int>(upper_.size()) ? 1 : std::clamp(static_cast<int>(std::lround(1.5 * thickness / along)), 1, across_);
+int Blades::cells_across(const Airfoil& a, int i) const {
+  const double thickness = (a.upper[i] - a.lower[i]).norm(), along = (a.upper[i] - a.upper[i - 1]).norm();
+  return i + 1 == static_cast<int>(a.upper.size()) ? 1 : std::clamp(static_cast<int>(std::lround(1.5 * thickness / along)), 1, across_);
 }
 
 TriangleSurface Blades::local_surface() const {
   SurfaceBuilder builder(rotor_.spin() > 0);
-  const int n = static_cast<int>(upper_.size()) - 1;
   const bool is_sharp = rotor_.blade.trailing_edge_thickness == 0;
   std::vector<std::vector<int>> rings;  // over the upper side to the leading edge and back along the lower side
   for (const double f : spanwise_.fractions(refine_)) {
     const BladeSection s = local_section(first_radius_ + f * spanwise_.length);
+    const Airfoil p = points(s.chord);
+    const int n = static_cast<int>(p.upper.size()) - 1;
     auto& ring = rings.emplace_back();
-    for (int i = n; i > 0; --i) ring.push_back(builder.add(s.at(upper_[i])));
-    for (int i = 0; i < n; ++i) ring.push_back(builder.add(s.at(lower_[i])));
-    if (!is_sharp) ring.push_back(builder.add(s.at(lower_[n])));
+    for (int i = n; i > 0; --i) ring.push_back(builder.add(s.at(p.upper[i])));
+    for (int i = 0; i < n; ++i) ring.push_back(builder.add(s.at(p.lower[i])));
+    if (!is_sharp) ring.push_back(builder.add(s.at(p.lower[n])));
     ring.push_back(ring.front());
     if (rings.size() > 1) builder.band(rings[rings.size() - 2], ring);
   }
   for (const bool tip : {false, true}) {
     const std::vector<int>& ring = tip ? rings.back() : rings.front();
+    const Airfoil p = points(local_section(tip ? last_radius_ : first_radius_).chord);
+    const int n = static_cast<int>(p.upper.size()) - 1;
     const double bulge = rotor_.blade.tip == "rounded" ? (tip ? 1 : -1) : 0;
     std::vector<int> before = {ring[n]};
     for (int i = 1; i <= n; ++i) {
-      const int cells = cells_across(i);
+      const int cells = cells_across(p, i);
       const auto column = i == n && is_sharp ? std::vector<int>{ring[0]} : builder.bridge(ring[n - i], ring[n + i], cells, bulge * Vec3::UnitX());
       tip ? builder.band(before, column) : builder.band(column, before);
       before = column;
@@ -122,7 +132,7 @@ double Blades::size(const Vec3& point) const {
     double along = chordwise_.size(x * chordwise_.length);
     if (const double thickness = rotor_.blade.trailing_edge_thickness; thickness > 0)
       along = std::min(along, thickness + rotor_.size.growth * (1 - x));
-    const double here = std::sqrt(along * s.chord * spanwise_.size(radius - first_radius_));
+    const double here = std::sqrt(along * s.chord / coarsening(s.chord) * spanwise_.size(radius - first_radius_));
     smallest = std::min(smallest, here + rotor_.size.growth * distance);
   }
   return smallest;

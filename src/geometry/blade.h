@@ -42,15 +42,17 @@ class Blades {
 
  private:
   BladeSection local_section(double radius) const;  ///< in the blade's frame: x towards the tip, z above the blade's plane
-  int cells_across(int point) const;
+  double coarsening(double chord) const;  ///< keeps edges along short chords from falling below smallest_m: at most 1
+  Airfoil points(double chord) const;     ///< from leading to trailing edge, in chords
+  int cells_across(const Airfoil& points, int point) const;
   TriangleSurface local_surface() const;
   Eigen::Isometry3d pose(int blade) const;  ///< from the blade's frame
 
   RotorOptions rotor_;
   double refine_;
   Stations stations_;
-  std::vector<Vec2> upper_, lower_;  ///< points of the section from leading to trailing edge, in chords
-  Grading chordwise_, spanwise_;     ///< the first along x in chords
+  Airfoil airfoil_;
+  Grading chordwise_, spanwise_;  ///< the first along x in chords
   double first_radius_, last_radius_;
   int across_;  ///< cells across the thickness at root and tip, at most
   std::vector<Eigen::Isometry3d> to_blade_;

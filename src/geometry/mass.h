@@ -11,7 +11,7 @@ namespace windhover::geometry {
 /// In the axes of the case.
 struct MassProperties {
   double mass_kg = 0;
-  Vec3 center_m = Vec3::Zero();                         ///< centre of gravity
+  Vec3 center_m = Vec3::Zero();                             ///< centre of gravity
   Eigen::Matrix3d inertia_kg_m2 = Eigen::Matrix3d::Zero();  ///< tensor about the centre: −∫xy dm off the diagonal
 };
 

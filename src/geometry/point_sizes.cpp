@@ -4,7 +4,8 @@
 
 namespace windhover::geometry {
 
-PointSizes::PointSizes(const std::vector<Vec3>& points, const std::vector<double>& sizes, double growth) : growth_(growth) {
+PointSizes::PointSizes(const std::vector<Vec3>& points, const std::vector<double>& sizes, double growth)
+    : growth_(growth) {
   for (size_t i = 0; i < points.size(); ++i) points_.push_back({points[i], sizes[i]});
   if (!points_.empty()) divide(0, static_cast<int>(points_.size()));
 }

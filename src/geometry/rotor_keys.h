@@ -48,6 +48,7 @@ void declare(V& v, RotorSizeOptions& o) {
   v.key("leading_edge", o.leading_edge, {.doc = "along the section's contour at the leading edge, in chords", .above = 0});
   v.key("trailing_edge", o.trailing_edge, {.doc = "there at the trailing edge, in chords", .above = 0});
   v.key("chord", o.chord, {.doc = "the largest there, in chords", .above = 0});
+  v.key("smallest_m", o.smallest_m, {.doc = "the smallest there: short chords have fewer cells; 0: none", .min = 0});
   v.key("root_m", o.root_m, {.doc = "along the span at the root; 0: as span_m", .min = 0});
   v.key("tip_m", o.tip_m, {.doc = "along the span at the tip; 0: as span_m", .min = 0});
   v.key("span_m", o.span_m, {.doc = "the largest along the span; 0: 4 % of the blade's radius", .min = 0});

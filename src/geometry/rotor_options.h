@@ -35,6 +35,7 @@ struct RotorSizeOptions {
   double hub_m = 0, interface_m = 0, zone_m = 0;
   double growth = 0.3;
   double wake_m = 0, wake_length_m = 0;  ///< below the zone
+  double smallest_m = 0;                 ///< along the chord
 };
 
 struct RotorOptions {

@@ -18,7 +18,8 @@ double SizeField::near_rotor(const RotorOptions& rotor, const Blades& blades, co
   double size = sizes.interface_m + sizes.growth * std::abs(inside);
   if (inside >= 0) size = std::min(size, sizes.zone_m);
   if (sizes.wake_m > 0) {
-    const double away = std::max(0.0, -depth(rotor, zone.radius_m, zone.from_m - sizes.wake_length_m, zone.from_m, point));
+    const double away =
+        std::max(0.0, -depth(rotor, zone.radius_m, zone.from_m - sizes.wake_length_m, zone.from_m, point));
     size = std::min(size, sizes.wake_m + sizes.growth * away);
   }
   if (rotor.hub.radius_m > 0) {

@@ -65,8 +65,14 @@ void reduce(Worst& worst, MPI_Comm comm) {
 }  // namespace
 
 Quality measure_quality(const Mesh& mesh) {
-  Quality quality{.smallest_edge = {.value = kNone}, .smallest_dihedral_deg = {.value = kNone}, .largest_volume_ratio = {.value = -1}};
-  for (Index i = 0; i < mesh.n_owned; ++i) measure_cell(mesh.type[i], corners_of(mesh, i), quality);
+  Quality quality{.smallest_edge = {.value = kNone},
+                  .smallest_dihedral_deg = {.value = kNone},
+                  .largest_volume_ratio = {.value = -1},
+                  .smallest_cell = {.value = kNone}};
+  for (Index i = 0; i < mesh.n_owned; ++i) {
+    measure_cell(mesh.type[i], corners_of(mesh, i), quality);
+    take_smaller(quality.smallest_cell, std::cbrt(mesh.volume[i]), mesh.centroid[i]);
+  }
   Worst& ratio = quality.largest_volume_ratio;  // its negative while it is reduced
   for (const FaceBlock& block : mesh.faces)
     for (int lane = 0; lane < block.count; ++lane) {
@@ -74,7 +80,7 @@ Quality measure_quality(const Mesh& mesh) {
       const double r = mesh.volume[a] / mesh.volume[b];
       take_smaller(ratio, -std::max(r, 1 / r), mesh.centroid[a] + Vec3(block.arm[lane][0]));
     }
-  for (Worst* worst : {&quality.smallest_edge, &quality.smallest_dihedral_deg, &ratio}) reduce(*worst, mesh.comm);
+  for (Worst* worst : {&quality.smallest_edge, &quality.smallest_dihedral_deg, &ratio, &quality.smallest_cell}) reduce(*worst, mesh.comm);
   ratio.value = -ratio.value;
   return quality;
 }

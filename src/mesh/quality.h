@@ -13,6 +13,7 @@ struct Quality {
   Worst smallest_edge;
   Worst smallest_dihedral_deg;  ///< angle between two faces of a cell
   Worst largest_volume_ratio;   ///< between face neighbours
+  Worst smallest_cell;          ///< cubic root of its volume
 };
 
 /// Collective; the same on all ranks.

@@ -103,8 +103,8 @@ void mesh_aircraft(const GeometryOptions& geometry) {
   std::vector<RotorSurfaces> rotors;
   for (const RotorOptions& rotor : geometry.rotor) rotors.push_back(add_surfaces(rotor));
   const auto& far = geometry.farfield;
-  const std::vector<int> ball = keep_surfaces(
-      gmsh::model::occ::addSphere(far.center_m.x(), far.center_m.y(), far.center_m.z(), far.radius_m));
+  const std::vector<int> ball =
+      keep_surfaces(gmsh::model::occ::addSphere(far.center_m.x(), far.center_m.y(), far.center_m.z(), far.radius_m));
   add_all_blades(geometry, rotors);
   add_volumes(geometry, ball, airframe.surfaces, rotors);
   const geometry::SizeField size(geometry, airframe.sizes);

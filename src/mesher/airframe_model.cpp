@@ -43,8 +43,8 @@ int add_solid(const geometry::AirframeOptions& airframe) {
   std::vector<gmsh::vectorpair> map;
   occ::fuse({solids.front()}, {solids.begin() + 1, solids.end()}, whole, map);
   if (whole.size() > 1)
-    throw UserError("airframe: falls into {} pieces that do not touch, the centres of the first two at {} and {}", whole.size(),
-                    text(center_of(whole[0])), text(center_of(whole[1])));
+    throw UserError("airframe: falls into {} pieces that do not touch, the centres of the first two at {} and {}",
+                    whole.size(), text(center_of(whole[0])), text(center_of(whole[1])));
   return whole.front().second;
 }
 
@@ -105,9 +105,11 @@ void check_clearance(const std::vector<Vec3>& points, const GeometryOptions& geo
     for (const RotorOptions& r : geometry.rotor)
       if (const double clearance = 0.01 * r.blade.radius_m;
           depth(r, r.zone.radius_m, r.zone.from_m, r.zone.to_m, p) > -clearance)
-        throw UserError("rotor \"{}\": its zone comes nearer to the airframe than {:.3g} m at {}", r.name, clearance, text(p));
+        throw UserError("rotor \"{}\": its zone comes nearer to the airframe than {:.3g} m at {}", r.name, clearance,
+                        text(p));
     if ((p - geometry.farfield.center_m).norm() >= geometry.farfield.radius_m)
-      throw UserError("airframe: leaves the ball mesh.farfield of radius {} m at {}", geometry.farfield.radius_m, text(p));
+      throw UserError("airframe: leaves the ball mesh.farfield of radius {} m at {}", geometry.farfield.radius_m,
+                      text(p));
   }
 }
 

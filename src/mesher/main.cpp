@@ -15,7 +15,8 @@
 void fix_addresses(char** argv) {
   const int now = personality(0xffffffff);
   if (now < 0 || (now & ADDR_NO_RANDOMIZE)) return;
-  if (personality(now | ADDR_NO_RANDOMIZE) >= 0 && (personality(0xffffffff) & ADDR_NO_RANDOMIZE)) execv("/proc/self/exe", argv);
+  if (personality(now | ADDR_NO_RANDOMIZE) >= 0 && (personality(0xffffffff) & ADDR_NO_RANDOMIZE))
+    execv("/proc/self/exe", argv);
 }
 
 int main(int argc, char** argv) {

@@ -45,7 +45,8 @@ int add_capsule(const PartOptions& part) {
   const Vec3 along = part.to_m - part.from_m;
   const double r = part.radius_m, length = along.norm();
   const int middle = occ::addCylinder(0, 0, 0, 0, 0, length, r);
-  const int below = occ::addSphere(0, 0, 0, r, -1, -M_PI / 2, 0), above = occ::addSphere(0, 0, length, r, -1, 0, M_PI / 2);
+  const int below = occ::addSphere(0, 0, 0, r, -1, -M_PI / 2, 0),
+            above = occ::addSphere(0, 0, length, r, -1, 0, M_PI / 2);
   gmsh::vectorpair whole;
   std::vector<gmsh::vectorpair> map;
   occ::fuse({{3, middle}}, {{3, below}, {3, above}}, whole, map);

@@ -73,7 +73,7 @@ class Rotors(unittest.TestCase):
         case = second(CASE, "right", 1.3)
         made = self.run_program("mesh", case)
         self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
-        self.assertIn("zones: left right outer", made.stdout)
+        self.assertRegex(made.stdout, r"zones: left \(\d+\) right \(\d+\) outer \(\d+\)")
         self.check_error(self.run_program("check", case, "--set", "rotor[0].blade.collective_deg=1"), "was made from other")
         checked = self.run_program("check", case, "--set", "rotor[0].rpm=900")
         self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)

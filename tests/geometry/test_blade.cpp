@@ -29,6 +29,13 @@ bool is_closed(const TriangleSurface& s) {
   return true;
 }
 
+double shortest_edge(const TriangleSurface& s) {
+  double shortest = 1e300;
+  for (const auto& t : s.triangles)
+    for (int i = 0; i < 3; ++i) shortest = std::min(shortest, (s.points[t[i]] - s.points[t[(i + 1) % 3]]).norm());
+  return shortest;
+}
+
 double volume(const TriangleSurface& s) {
   double volume = 0;
   for (const auto& t : s.triangles) volume += s.points[t[0]].dot(s.points[t[1]].cross(s.points[t[2]])) / 6;
@@ -52,6 +59,22 @@ TEST_CASE("a blade's surface is closed and faces outwards") {
           CHECK(volume(surface) > 0.8 * 0.0823 * 0.035);  // 0.0823 c² t from the section, 0.035 the mean of c² times length
           CHECK(volume(surface) < 1.2 * 0.0823 * 0.035);
         }
+}
+
+TEST_CASE("short chords get fewer cells, and the surface stays closed") {
+  for (const char* tip : {"rounded", "flat"})
+    for (const double thickness : {0.0, 0.01}) {
+      RotorOptions r = rotor();
+      r.blade.tip = tip;
+      r.blade.trailing_edge_thickness = thickness;
+      const auto all = Blades(r, 2).surface(0);
+      r.size.smallest_m = 0.012;  // 0.05 of the chords are 0.01 to 0.0125, and 0.005 at the tip
+      const auto fewer = Blades(r, 2).surface(0);
+      CHECK(is_closed(fewer));
+      CHECK(fewer.triangles.size() < 0.9 * all.triangles.size());
+      CHECK(volume(fewer) == Approx(volume(all)).epsilon(0.02));
+      if (thickness == 0) CHECK(shortest_edge(fewer) > 1.3 * shortest_edge(all));  // otherwise it is the trailing edge
+    }
 }
 
 TEST_CASE("the volume of an untwisted blade is the section's area times the span") {

@@ -1,6 +1,7 @@
 #include "mesh/quality.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "mesh_fixture.h"
 
@@ -13,6 +14,7 @@ TEST_CASE("quality of a box of equal hexahedra") {
   CHECK(quality.smallest_edge.value == Approx(2.0 / 8));
   CHECK(quality.smallest_dihedral_deg.value == Approx(90));
   CHECK(quality.largest_volume_ratio.value == Approx(1));
+  CHECK(quality.smallest_cell.value == Approx(std::cbrt(2.0 / 8 * 2 / 5 * 2 / 4)));
 }
 
 TEST_CASE("quality of tetrahedra is found at the same place on any number of ranks") {
@@ -22,6 +24,7 @@ TEST_CASE("quality of tetrahedra is found at the same place on any number of ran
   CHECK(a.smallest_edge.value == b.smallest_edge.value);
   CHECK(a.smallest_dihedral_deg.value == b.smallest_dihedral_deg.value);
   CHECK(a.largest_volume_ratio.value == b.largest_volume_ratio.value);
+  CHECK(a.smallest_cell.value == b.smallest_cell.value);
   CHECK((a.smallest_dihedral_deg.place - b.smallest_dihedral_deg.place).norm() < 1e-14);
   CHECK(a.smallest_dihedral_deg.value > 1);
   CHECK(a.smallest_dihedral_deg.value < 60);
