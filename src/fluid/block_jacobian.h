@@ -22,6 +22,12 @@ class BlockJacobian {
   /// Face `face` counts the lanes of all interior blocks in order, padding included. Adds scale · side to the rows of
   /// the left cell and subtracts it from the right cell's, in the column of the cell on that side.
   void add_face(size_t face, int side, const double* block, double scale);
+  /// Asks for the blocks of a face before they are added to.
+  void prefetch_face(size_t face) {
+    for (const Slot& s : face_[face])
+      if (s.offset >= 0)
+        for (int k = 0; k < 25; k += 8) __builtin_prefetch(block_at(s) + k, 1);
+  }
   void add_diagonal(mesh::Index cell, const double* block, double scale);
   /// Adds value on the diagonal of the cell's own block.
   void add_identity(mesh::Index cell, double value);
@@ -43,7 +49,7 @@ class BlockJacobian {
   void find_slots(const mesh::Mesh& mesh);
 
   MatHandle matrix_;
-  std::vector<std::array<Slot, 4>> face_;                   ///< (left, left), (left, right), (right, left), (right, right)
+  std::vector<std::array<Slot, 4>> face_;  ///< (left, left), (left, right), (right, left), (right, right)
   std::vector<int> diagonal_;
   double *inside_ = nullptr, *outside_ = nullptr;
 };

@@ -46,8 +46,9 @@ void EulerOperator::first_order_jacobian(Vec q, const Frames& frames, double sca
       [&](const FaceInput& in, const FaceBlock* blocks, int n) {
         BlockPack sides[2];
         for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
-          model_.flux->jacobian(in, *b, sides);
           const size_t first = size_t(b - mesh_.faces.data()) * mesh::kLanes;
+          for (int i = 0; i < b->count; ++i) jacobian.prefetch_face(first + i);
+          model_.flux->jacobian(in, *b, sides);
           for (int s = 0; s < 2; ++s) {
             const LaneBlocks lanes(sides[s]);
             for (int i = 0; i < b->count; ++i) jacobian.add_face(first + i, s, lanes.block[i], scale);

@@ -41,7 +41,7 @@ inline void store_column(const Flux<Dual<Pack>>& f, const Pack& area, int k, Blo
 }
 
 template <class FluxScheme>
-void flux_jacobian(const FaceInput& in, const mesh::FaceBlock& b, BlockPack sides[2]) {
+[[gnu::flatten]] void flux_jacobian(const FaceInput& in, const mesh::FaceBlock& b, BlockPack sides[2]) {
   const FaceGeometry face = face_geometry(in, b);
   const auto l = face_side<Reconstruction::first_order, Pack>(in, b, 0);
   const auto r = face_side<Reconstruction::first_order, Pack>(in, b, 1);
