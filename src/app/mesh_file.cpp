@@ -53,9 +53,19 @@ void print_worst(const char* name, const mesh::Worst& worst, const char* unit) {
              worst.place[1], worst.place[2]);
 }
 
-/// What the mesh is made from, and the record of it beside the mesh.
+/// What the mesh is made from, and the record of it beside the mesh. Files in it are relative to the record, so that it holds
+/// from wherever it is read.
 std::string geometry_text(const Case& c) {
   geometry::GeometryOptions geometry = mesh_geometry(c);
+  const fs::path folder = fs::absolute(c.mesh.file).parent_path();
+  const auto make_relative = [&](std::string& file) {
+    if (fs::is_regular_file(file)) file = fs::proximate(file, folder);
+  };
+  make_relative(geometry.airframe.step);
+  for (auto& rotor : geometry.rotor) {
+    make_relative(rotor.blade.airfoil);
+    for (auto& section : rotor.blade.section) make_relative(section.airfoil);
+  }
   for (auto& rotor : geometry.rotor) rotor.rpm = rotor.mass_kg = 0;  // the mesh does not depend on them
   for (auto& part : geometry.airframe.part) part.mass_kg = part.density_kg_m3 = 0;
   return io::options_text(geometry);

@@ -108,6 +108,20 @@ Airfoil make_airfoil(const std::string& name, double trailing_edge_thickness) {
   return a;
 }
 
+Airfoil blend(const Airfoil& a, const Airfoil& b, double weight) {
+  if (weight == 0) return a;
+  if (weight == 1) return b;
+  std::vector<double> fractions;
+  for (int i = 0; i <= kSamples; ++i) fractions.push_back(cosine(i));
+  const auto between = [&](const std::vector<Vec2>& from, const std::vector<Vec2>& to) {
+    std::vector<Vec2> points = points_at(from, fractions);
+    const std::vector<Vec2> others = points_at(to, fractions);
+    for (size_t i = 0; i < points.size(); ++i) points[i] += weight * (others[i] - points[i]);
+    return points;
+  };
+  return {between(a.upper, b.upper), between(a.lower, b.lower)};
+}
+
 std::vector<Vec2> points_at(const std::vector<Vec2>& side, const std::vector<double>& fractions) {
   const std::vector<double> s = lengths(side);
   std::vector<Vec2> points;

@@ -16,6 +16,9 @@ struct Airfoil {
 /// "naca" and four digits, or a file. UserError: neither, or a file that is not an airfoil.
 Airfoil make_airfoil(const std::string& name, double trailing_edge_thickness);
 
+/// Between a (weight 0) and b (weight 1): points at equal fractions of the length of each side are weighted.
+Airfoil blend(const Airfoil& a, const Airfoil& b, double weight);
+
 /// Points of one side at fractions of its length.
 std::vector<Vec2> points_at(const std::vector<Vec2>& side, const std::vector<double>& fractions);
 

@@ -27,15 +27,15 @@ Eigen::Matrix3d rotor_axes(const RotorOptions& rotor) {
   return axes;
 }
 
-Blades::Blades(const RotorOptions& rotor, double refine) : rotor_(rotor), refine_(refine), stations_(rotor.blade) {
-  airfoil_ = make_airfoil(rotor.blade.airfoil, rotor.blade.trailing_edge_thickness);
+Blades::Blades(const RotorOptions& rotor, double refine) : rotor_(rotor), refine_(refine), stations_(rotor.blade), sections_(rotor.blade) {
   const RotorSizeOptions& size = rotor.size;
-  chordwise_ = {length_of(airfoil_.upper), size.leading_edge, size.trailing_edge, size.chord, size.growth};
+  const Airfoil root = sections_.airfoil(stations_.root), end = sections_.airfoil(1);
+  chordwise_ = {length_of(root.upper), size.leading_edge, size.trailing_edge, size.chord, size.growth};
   const bool rounded = rotor.blade.tip == "rounded";
   across_ = 2 * std::max(1, static_cast<int>(std::lround(refine * (rounded ? 2 : 1))));
-  const double R = rotor.blade.radius_m, round = rounded ? half_thickness(airfoil_) * R : 0;
-  first_radius_ = stations_.root * R + round * stations_.chord(stations_.root);
-  last_radius_ = R - round * stations_.chord(1);
+  const double R = rotor.blade.radius_m;
+  first_radius_ = R * (stations_.root + (rounded ? half_thickness(root) * stations_.chord(stations_.root) : 0));
+  last_radius_ = R * (1 - (rounded ? half_thickness(end) * stations_.chord(1) : 0));
   spanwise_ = {last_radius_ - first_radius_, size.root_m, size.tip_m, size.span_m, size.growth};
   for (int k = 0; k < rotor.blade.count; ++k) to_blade_.push_back(pose(k).inverse());
 }
@@ -66,9 +66,11 @@ double Blades::coarsening(double chord) const {
   return size.smallest_m == 0 ? 1 : std::min(1.0, std::min(size.leading_edge, size.trailing_edge) * chord / size.smallest_m);
 }
 
-Airfoil Blades::points(double chord) const {
-  const auto fractions = chordwise_.fractions(refine_ * coarsening(chord));
-  return {points_at(airfoil_.upper, fractions), points_at(airfoil_.lower, fractions)};
+Airfoil Blades::points(double radius) const {
+  const double at = radius / rotor_.blade.radius_m;
+  const Airfoil airfoil = sections_.airfoil(at);
+  const auto fractions = chordwise_.fractions(refine_ * coarsening(stations_.chord(at) * rotor_.blade.radius_m));
+  return {points_at(airfoil.upper, fractions), points_at(airfoil.lower, fractions)};
 }
 
 /// Not much shorter than the cells along the chord; the trailing edge is one cell thick.
@@ -82,8 +84,9 @@ TriangleSurface Blades::local_surface() const {
   const bool is_sharp = rotor_.blade.trailing_edge_thickness == 0;
   std::vector<std::vector<int>> rings;  // over the upper side to the leading edge and back along the lower side
   for (const double f : spanwise_.fractions(refine_)) {
-    const BladeSection s = local_section(first_radius_ + f * spanwise_.length);
-    const Airfoil p = points(s.chord);
+    const double radius = first_radius_ + f * spanwise_.length;
+    const BladeSection s = local_section(radius);
+    const Airfoil p = points(radius);
     const int n = static_cast<int>(p.upper.size()) - 1;
     auto& ring = rings.emplace_back();
     for (int i = n; i > 0; --i) ring.push_back(builder.add(s.at(p.upper[i])));
@@ -94,7 +97,7 @@ TriangleSurface Blades::local_surface() const {
   }
   for (const bool tip : {false, true}) {
     const std::vector<int>& ring = tip ? rings.back() : rings.front();
-    const Airfoil p = points(local_section(tip ? last_radius_ : first_radius_).chord);
+    const Airfoil p = points(tip ? last_radius_ : first_radius_);
     const int n = static_cast<int>(p.upper.size()) - 1;
     const double bulge = rotor_.blade.tip == "rounded" ? (tip ? 1 : -1) : 0;
     std::vector<int> before = {ring[n]};

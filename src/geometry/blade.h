@@ -7,6 +7,7 @@
 #include "geometry/airfoil.h"
 #include "geometry/grading.h"
 #include "geometry/rotor_options.h"
+#include "geometry/sections.h"
 #include "geometry/stations.h"
 
 namespace windhover::geometry {
@@ -43,7 +44,7 @@ class Blades {
  private:
   BladeSection local_section(double radius) const;  ///< in the blade's frame: x towards the tip, z above the blade's plane
   double coarsening(double chord) const;  ///< keeps edges along short chords from falling below smallest_m: at most 1
-  Airfoil points(double chord) const;     ///< from leading to trailing edge, in chords
+  Airfoil points(double radius) const;    ///< from leading to trailing edge, in chords
   int cells_across(const Airfoil& points, int point) const;
   TriangleSurface local_surface() const;
   Eigen::Isometry3d pose(int blade) const;  ///< from the blade's frame
@@ -51,7 +52,7 @@ class Blades {
   RotorOptions rotor_;
   double refine_;
   Stations stations_;
-  Airfoil airfoil_;
+  Sections sections_;
   Grading chordwise_, spanwise_;  ///< the first along x in chords
   double first_radius_, last_radius_;
   int across_;  ///< cells across the thickness at root and tip, at most

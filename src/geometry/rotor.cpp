@@ -6,12 +6,17 @@
 
 #include "base/errors.h"
 #include "geometry/blade.h"
+#include "geometry/sections.h"
 
 namespace windhover::geometry {
 namespace {
 
 void default_to(double& value, double substitute) {
   if (value == 0) value = substitute;
+}
+
+void find_airfoil(std::string& airfoil, const std::filesystem::path& folder) {
+  if (const auto file = folder / airfoil; std::filesystem::is_regular_file(file)) airfoil = file.lexically_normal();
 }
 
 template <class... Args>
@@ -84,7 +89,9 @@ void complete(RotorOptions& rotor, const std::filesystem::path& folder) {
   } catch (const UserError& error) {
     refuse(rotor, "blade: {}", error.what());
   }
-  if (const auto file = folder / rotor.blade.airfoil; std::filesystem::exists(file)) rotor.blade.airfoil = file.lexically_normal();
+  if (rotor.blade.section.empty() && rotor.blade.airfoil.empty()) rotor.blade.airfoil = "naca0012";
+  find_airfoil(rotor.blade.airfoil, folder);
+  for (SectionOptions& section : rotor.blade.section) find_airfoil(section.airfoil, folder);
   RotorSizeOptions& size = rotor.size;
   default_to(size.span_m, 0.04 * rotor.blade.radius_m);
   default_to(size.root_m, size.span_m);
@@ -101,7 +108,7 @@ void validate(const GeometryOptions& geometry) {
     if (rotor.blade.radius_m <= 0) refuse(rotor, "blade.radius_m is needed");
     try {
       validate_stations(rotor.blade);
-      make_airfoil(rotor.blade.airfoil, rotor.blade.trailing_edge_thickness);
+      validate_sections(rotor.blade);
     } catch (const UserError& error) {
       refuse(rotor, "blade: {}", error.what());
     }

@@ -7,6 +7,12 @@
 namespace windhover::geometry {
 
 template <class V>
+void declare(V& v, SectionOptions& o) {
+  v.key("r_over_R", o.r_over_R, {.doc = "its place over R, on the blade", .min = 0, .max = 1});
+  v.key("airfoil", o.airfoil, {.doc = "its airfoil, as blade.airfoil"});
+}
+
+template <class V>
 void declare(V& v, BladeOptions& o) {
   v.key("count", o.count, {.doc = "number of blades, evenly around", .min = 0, .max = 12});
   v.key("radius_m", o.radius_m, {.doc = "radius R of the tip", .min = 0});
@@ -19,13 +25,16 @@ void declare(V& v, BladeOptions& o) {
   v.key("sweep_over_R", o.sweep_over_R, {.doc = "distances of the quarter chord behind the pitch axis over R; missing: 0"});
   v.key("offset_over_R", o.offset_over_R, {.doc = "distances of the quarter chord above the pitch axis over R; missing: 0"});
   v.key("airfoil", o.airfoil,
-        {.doc = "naca and four digits, or a file of coordinates x y in chords: upper side from the trailing edge, "
-                "then the lower side"});
+        {.doc = "airfoil all along the span: naca and four digits, or a file of coordinates x y in chords, upper side "
+                "from the trailing edge, then the lower side, relative to the case file; missing: naca0012"});
   v.key("trailing_edge_thickness", o.trailing_edge_thickness,
         {.doc = "thickness of the trailing edge in chords; 0: sharp", .min = 0, .max = 0.1});
   v.key("tip", o.tip, {.doc = "how tip and root end", .choices = {"rounded", "flat"}});
   v.key("collective_deg", o.collective_deg, {.doc = "angle added to all of beta_deg"});
   v.key("precone_deg", o.precone_deg, {.doc = "angle of the blades above the plane of rotation", .min = -45, .max = 45});
+  v.tables("section", o.section,
+           "Airfoils that change along the span, in place of blade.airfoil, from the root outwards. Between two sections "
+           "the airfoil is blended linearly in r/R; within the first and beyond the last it stays.");
 }
 
 template <class V>

@@ -7,13 +7,20 @@
 
 namespace windhover::geometry {
 
+/// An airfoil at a place along the blade.
+struct SectionOptions {
+  double r_over_R = 0;
+  std::string airfoil;
+};
+
 /// Sections along the radius; lists have one entry per station, or none where they may be missing.
 struct BladeOptions {
   int count = 0;
   double radius_m = 0;
   std::string stations;  ///< CSV file in place of the lists
   std::vector<double> r_over_R, c_over_R, beta_deg, sweep_over_R, offset_over_R;
-  std::string airfoil = "naca0012";
+  std::string airfoil;  ///< after complete(): set where there are no sections
+  std::vector<SectionOptions> section;
   double trailing_edge_thickness = 0;
   std::string tip = "rounded";
   double collective_deg = 0, precone_deg = 0;

@@ -5,8 +5,11 @@
 #include <unistd.h>
 
 #include <exception>
+#include <filesystem>
 
 #include "base/errors.h"
+#include "geometry/airframe.h"
+#include "geometry/rotor.h"
 #include "geometry/rotor_keys.h"
 #include "io/options_reader.h"
 #include "mesher/aircraft_model.h"
@@ -28,6 +31,9 @@ int main(int argc, char** argv) {
   try {
     windhover::geometry::GeometryOptions geometry;
     windhover::io::read_options(windhover::io::read_toml(argv[1]), geometry);
+    const auto folder = std::filesystem::path(argv[1]).parent_path();
+    complete(geometry.airframe, folder);
+    for (auto& rotor : geometry.rotor) complete(rotor, folder);
     gmsh::initialize();
     gmsh::option::setNumber("General.Terminal", 1);
     gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);

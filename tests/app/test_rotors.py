@@ -88,6 +88,22 @@ class Rotors(unittest.TestCase):
         thrust = float((self.folder / "out/history.csv").read_text().splitlines()[-1].split(",")[15])
         self.assertGreater(thrust, 0)
 
+    def test_airfoil_file(self):
+        """A mesh is the case's own from wherever the case is run, and not after another airfoil is named."""
+        wedge = [(1, 0), (0.8, 0.03), (0.5, 0.06), (0.3, 0.07), (0.1, 0.05), (0.02, 0.02), (0, 0),
+                 (0.02, -0.02), (0.1, -0.05), (0.3, -0.07), (0.5, -0.06), (0.8, -0.03), (1, 0)]
+        (self.folder / "thick.dat").write_text("thick\n" + "".join(f"{x} {y}\n" for x, y in wedge))
+        sections = 'section = [{r_over_R = 0.25, airfoil = "thick.dat"}, {r_over_R = 0.9, airfoil = "naca2410"}]'
+        case = CASE.replace("beta_deg = [20, 8]", "beta_deg = [20, 8]\n" + sections)
+        made = self.run_program("mesh", case)
+        self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
+        path = self.folder / "case.toml"
+        checked = subprocess.run([WINDHOVER, "check", path], cwd=self.folder.parent, capture_output=True, text=True)
+        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+        other = self.run_program("check", case, "--set", "rotor[0].blade.section[1].airfoil=naca2412")
+        self.check_error(other, "was made from other")
+        self.check_error(self.run_program("mesh", case.replace("thick.dat", "thin.dat")), "case.toml:", "section[0]: thin.dat: airfoil")
+
     def tables(self, name):
         return {path.name: (self.folder / name / path.name).read_text() for path in (self.folder / name).glob("rotor_*.csv")}
 

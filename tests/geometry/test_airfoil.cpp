@@ -64,6 +64,32 @@ TEST_CASE("a file of coordinates gives the section that it was made from") {
   }
 }
 
+TEST_CASE("a blend has its ends exactly, and halfway the mean of camber and thickness") {
+  const Airfoil a = make_airfoil("naca0012", 0.01), b = make_airfoil("naca4408", 0.01);
+  CHECK(blend(a, b, 0).upper == a.upper);
+  CHECK(blend(a, b, 1).lower == b.lower);
+  const Airfoil half = blend(a, b, 0.5), wanted = make_airfoil("naca2410", 0.01);
+  for (const double x : {0.01, 0.05, 0.2, 0.4, 0.7, 0.95}) {
+    CHECK(height(half.upper, x) == Approx(height(wanted.upper, x)).margin(6e-4));
+    CHECK(height(half.lower, x) == Approx(height(wanted.lower, x)).margin(6e-4));
+  }
+  CHECK(half.upper.front().norm() == 0);
+  CHECK((half.upper.back() - half.lower.back()).norm() == Approx(0.01).margin(1e-12));
+}
+
+TEST_CASE("a section and its enlargement blend to an enlargement") {
+  const Airfoil a = make_airfoil("naca0012", 0.01);
+  Airfoil b = a;
+  for (auto* side : {&b.upper, &b.lower})
+    for (Vec2& p : *side) p *= 2;
+  const Airfoil c = blend(a, b, 0.25);
+  REQUIRE(c.upper.size() == a.upper.size());
+  for (size_t i = 1; i + 1 < c.upper.size(); ++i) {
+    CHECK(c.upper[i].y() / 1.25 == Approx(height(a.upper, c.upper[i].x() / 1.25)).margin(1e-10));
+    CHECK(c.lower[i].y() / 1.25 == Approx(height(a.lower, c.lower[i].x() / 1.25)).margin(1e-10));
+  }
+}
+
 TEST_CASE("what is no airfoil is refused") {
   CHECK_THROWS_WITH(make_airfoil("naca00", 0), Contains("neither naca and four digits nor a file"));
   CHECK_THROWS_WITH(make_airfoil("naca0000", 0), Contains("has no thickness"));

@@ -15,6 +15,7 @@ RotorOptions rotor() {
   r.blade.r_over_R = {0.2, 0.6, 1};
   r.blade.c_over_R = {0.2, 0.25, 0.1};
   r.blade.beta_deg = {25, 15, 5};
+  r.blade.airfoil = "naca0012";
   r.size = {0.05, 0.05, 0.2, 0.08, 0.04, 0.08, 0.1, 0.2, 0.2, 0.4};
   return r;
 }
@@ -75,6 +76,34 @@ TEST_CASE("short chords get fewer cells, and the surface stays closed") {
       CHECK(volume(fewer) == Approx(volume(all)).epsilon(0.02));
       if (thickness == 0) CHECK(shortest_edge(fewer) > 1.3 * shortest_edge(all));  // otherwise it is the trailing edge
     }
+}
+
+TEST_CASE("a blade with sections of its own is closed and has their thickness") {
+  for (const double thickness : {0.0, 0.01}) {
+    RotorOptions r = rotor();
+    r.blade.airfoil.clear();
+    r.blade.section = {{0.4, "naca0012"}, {0.8, "naca4406"}};
+    r.blade.trailing_edge_thickness = thickness;
+    const TriangleSurface surface = Blades(r, 2).surface(0);
+    CHECK(is_closed(surface));
+    RotorOptions thick = r, thin = r;
+    thick.blade.section = {{0.2, "naca0012"}};
+    thin.blade.section = {{0.2, "naca4406"}};
+    CHECK(volume(surface) > 1.1 * volume(Blades(thin, 2).surface(0)));
+    CHECK(volume(surface) < 0.9 * volume(Blades(thick, 2).surface(0)));
+  }
+}
+
+TEST_CASE("the volume of a blade between two sections is that of the mean section") {
+  RotorOptions r = rotor();
+  r.blade.r_over_R = {0.2, 1};
+  r.blade.c_over_R = {0.2, 0.2};
+  r.blade.beta_deg = {0, 0};
+  r.blade.tip = "flat";
+  r.blade.airfoil.clear();
+  r.blade.section = {{0.2, "naca0008"}, {1, "naca0016"}};
+  r.blade.trailing_edge_thickness = 0.00252;
+  CHECK(volume(Blades(r, 6).surface(0)) == Approx(0.08221 * 0.04 * 0.8).epsilon(3e-3));
 }
 
 TEST_CASE("the volume of an untwisted blade is the section's area times the span") {

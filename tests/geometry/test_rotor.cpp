@@ -77,6 +77,33 @@ TEST_CASE("what does not fit is refused with the place") {
   CHECK_THAT(error_of([](G&, R& r) { r.blade.airfoil = "naca"; }), Contains("neither naca and four digits"));
 }
 
+TEST_CASE("sections along a blade: one airfoil or several, on the blade, outwards") {
+  const auto error = [](const std::vector<SectionOptions>& sections, const std::string& airfoil = "") {
+    return error_of([&](GeometryOptions&, RotorOptions& r) { r.blade.section = sections, r.blade.airfoil = airfoil; });
+  };
+  CHECK(error({{0.2, "naca4412"}, {1, "naca4406"}}) == "no error");
+  CHECK(error({{0.9, "naca4412"}}) == "no error");
+  CHECK_THAT(error({{0.2, "naca4412"}}, "naca0012"), Contains("left\": blade: give either airfoil = \"naca0012\" or [[section]]"));
+  CHECK_THAT(error({{0.1, "naca4412"}}), Contains("section[0].r_over_R = 0.1: must be on the blade, from 0.2 to 1"));
+  CHECK_THAT(error({{0.5, "naca4412"}, {0.5, "naca0012"}}), Contains("section[1].r_over_R = 0.5: must be greater than 0.5"));
+  CHECK_THAT(error({{0.5, ""}}), Contains("section[0].airfoil is needed"));
+  CHECK_THAT(error({{0.5, "naca4412"}, {1, "e63"}}), Contains("section[1]: e63: airfoil: neither naca and four digits nor a file"));
+}
+
+TEST_CASE("files of airfoils are found beside the case, and naca0012 is meant where none is named") {
+  const testing::Scratch scratch;
+  std::ofstream(scratch.path / "thin.dat") << "title\n";
+  RotorOptions r;
+  r.blade.section = {{0.5, "thin.dat"}, {1, "naca0012"}};
+  complete(r, scratch.path);
+  CHECK(r.blade.section[0].airfoil == scratch.path / "thin.dat");
+  CHECK(r.blade.section[1].airfoil == "naca0012");
+  CHECK(r.blade.airfoil.empty());
+  RotorOptions plain;
+  complete(plain, scratch.path);
+  CHECK(plain.blade.airfoil == "naca0012");
+}
+
 TEST_CASE("zones that overlap and names that repeat are refused") {
   const auto with_second = [](const Vec3& center, const std::string& name) {
     return error_of([&](GeometryOptions& g, RotorOptions&) {
