@@ -6,7 +6,8 @@ import pathlib
 import subprocess
 import tempfile
 
-MESHES = pathlib.Path(__file__).resolve().parents[1] / "tests/meshes"
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+MESHES = ROOT / "tests/meshes"
 SHAPES = {  # about 150 k tetrahedra, 216 k hexahedra
     "tetrahedra": ("cube", ["-setnumber", "n", "32"]),
     "hexahedra": ("box", ["-setnumber", "nx", "60", "-setnumber", "ny", "60", "-setnumber", "nz", "60"]),
@@ -31,13 +32,29 @@ def measure(program, mesh, name, ranks):
         return json.loads(pathlib.Path(file.name).read_text())
 
 
+def sliding(program, build):
+    """A rotor's zone of about 21, 46 and 110 thousand cells, one rank."""
+    results = []
+    for refine in (1, 1.3, 1.75):
+        case = [ROOT / "cases/slow-flyer-static/case.toml"]
+        mesh = (build / f"bench/meshes/rotor_{refine}.msh").resolve()
+        keys = [f"mesh.refine={refine}", f"mesh.file={mesh}"]
+        mesh.parent.mkdir(parents=True, exist_ok=True)
+        sets = [word for key in keys for word in ("--set", key)]
+        subprocess.run([build / "windhover", "mesh", *case, *sets], check=True, stdout=subprocess.DEVNULL)
+        with tempfile.NamedTemporaryFile(suffix=".json") as file:
+            subprocess.run([program + "_sliding", *case, f"rotor {refine}", file.name, *keys], check=True)
+            results += json.loads(pathlib.Path(file.name).read_text())
+    return results
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
     parser.add_argument("build")
     parser.add_argument("--json")
     arguments = parser.parse_args()
-    results = []
+    results = sliding(arguments.program, pathlib.Path(arguments.build))
     for name in SHAPES:
         mesh = make_mesh(pathlib.Path(arguments.build) / "bench/meshes", name)
         one, two = (measure(arguments.program, mesh, name, ranks) for ranks in (1, 2))
