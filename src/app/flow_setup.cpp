@@ -76,7 +76,7 @@ fluid::InitialState initial_state(const Case& c) {
 
 namespace {
 
-mesh::Signal scaled(mesh::Signal signal, double value, double time) {
+Signal scaled(Signal signal, double value, double time) {
   return {signal.mean / value, signal.rate * time / value, signal.amplitude / value, signal.omega * time, signal.phase};
 }
 

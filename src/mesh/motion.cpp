@@ -1,7 +1,5 @@
 #include "mesh/motion.h"
 
-#include <cmath>
-
 namespace windhover::mesh {
 
 FrameState compose(const FrameState& outer, const FrameState& inner) {
@@ -11,9 +9,6 @@ FrameState compose(const FrameState& outer, const FrameState& inner) {
           .V = outer.V + outer.omega.cross(arm) + outer.R * inner.V,
           .omega = outer.omega + outer.R * inner.omega};
 }
-
-double Signal::value(double t) const { return mean + rate * t + amplitude * std::sin(omega * t + phase); }
-double Signal::derivative(double t) const { return rate + amplitude * omega * std::cos(omega * t + phase); }
 
 namespace {
 

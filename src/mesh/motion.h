@@ -5,6 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "base/signal.h"
+
 namespace windhover::mesh {
 
 using Vec3 = Eigen::Vector3d;
@@ -24,13 +26,6 @@ struct FrameState {
 
 /// The frame `inner`, given relative to `outer`, seen from outside.
 FrameState compose(const FrameState& outer, const FrameState& inner);
-
-/// value(t) = mean + rate t + amplitude sin(omega t + phase); any units.
-struct Signal {
-  double mean = 0, rate = 0, amplitude = 0, omega = 0, phase = 0;
-  double value(double t) const;
-  double derivative(double t) const;
-};
 
 /// Translation along a fixed direction.
 struct Translation {
