@@ -42,6 +42,10 @@ def figures(runs, folder):
                 values[f"worse_{scheme}"] = error(run) / error(runs["large_iqn"], run.history["time_s"][-1])
             else:
                 values[f"difference_{name}"] = difference(run, runs["large_iqn"])
+    for name in runs:
+        kind, ratio, *n = name.split("_")
+        if kind == "ratio" and n == ["6"] and f"ratio_{ratio}_4" in runs:
+            values[f"mesh_ratio_{ratio}"] = values[f"error_{name}"] / values[f"error_ratio_{ratio}_4"]
     for scheme, by_step in errors.items():
         if len(by_step) == 3:
             values[f"order_{scheme}"] = fit.order(list(by_step), list(by_step.values()))
