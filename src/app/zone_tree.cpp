@@ -49,7 +49,7 @@ ZonedMesh read_zones(const Case& c, MPI_Comm comm) {
   std::set<int> claimed;
   for (size_t i = 0; i < c.zone.size(); ++i) {
     const ZoneOptions& zone = c.zone[i];
-    const std::string key = fmt::format("zone[{}]", i);
+    const std::string key = fmt::format("{}: zone[{}]", c.file.string(), i);
     const int inner = find_patch(z.mesh, zone.inner_surface, find_zone(z.mesh, zone.name, key + ".name"), key + ".inner_surface");
     const int outer = find_patch(z.mesh, zone.outer_surface, find_zone(z.mesh, zone.parent, key + ".parent"), key + ".outer_surface");
     for (const int patch : {inner, outer})
@@ -57,7 +57,11 @@ ZonedMesh read_zones(const Case& c, MPI_Comm comm) {
         throw UserError("{}: the surface \"{}\" belongs to another zone's interface already", key, z.mesh.patches[patch].name);
     pairs.push_back({surface_of(zone, length), inner, outer});
   }
-  z.interfaces = mesh::make_sliding_interfaces(z.mesh, pairs, scale);
+  try {
+    z.interfaces = mesh::make_sliding_interfaces(z.mesh, pairs, scale);
+  } catch (const UserError& error) {
+    throw UserError("{}: {}: {}", c.file.string(), c.mesh.file, error.what());
+  }
   return z;
 }
 
@@ -65,7 +69,7 @@ ZoneTree::ZoneTree(const Case& c, const mesh::Mesh& mesh) : body_(scaled_motion(
   std::vector<Link> open;
   std::set<int> turning;
   for (size_t i = 0; i < c.zone.size(); ++i) {
-    const std::string key = fmt::format("zone[{}]", i);
+    const std::string key = fmt::format("{}: zone[{}]", c.file.string(), i);
     Link link{find_zone(mesh, c.zone[i].name, key + ".name"), find_zone(mesh, c.zone[i].parent, key + ".parent"),
               scaled(zone_rotation(c.zone[i]), Scales(c.fluid)), rotor_of_zone(c, c.zone[i]), 1};
     if (link.rotor >= 0 && link.rotation.axis.dot(c.body.vehicle.rotor[link.rotor].spin_axis) < 0) link.sense = -1;
@@ -74,7 +78,7 @@ ZoneTree::ZoneTree(const Case& c, const mesh::Mesh& mesh) : body_(scaled_motion(
   }
   while (!open.empty()) {
     const auto ready = std::find_if(open.begin(), open.end(), [&](const Link& l) { return !turning.contains(l.parent); });
-    if (ready == open.end()) throw UserError("zone: \"{}\" turns inside itself", mesh.zones[open.front().zone].name);
+    if (ready == open.end()) throw UserError("{}: zone: \"{}\" turns inside itself", c.file.string(), mesh.zones[open.front().zone].name);
     turning.erase(ready->zone);
     links_.push_back(std::move(*ready));
     open.erase(ready);

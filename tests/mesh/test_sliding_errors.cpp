@@ -71,6 +71,30 @@ TEST_CASE("inside and outside exchanged") {
   CHECK_THAT(error_of(mesh, rotor_surface(), "ball", "rotor"), Contains("zone 'ball'") && Contains("inside out"));
 }
 
+/// Moves the node of a zone that is nearest to a place.
+void move_node(Mesh& mesh, const std::string& zone, const Vec3& from, const Vec3& to) {
+  Index nearest = -1;
+  for (Index c = 0; c < mesh.n_cells; ++c)
+    for (Index k = mesh.cell_point_start[c]; k < mesh.cell_point_start[c + 1]; ++k) {
+      const Index p = mesh.cell_point[k];
+      if (mesh.zones[mesh.cell_zone[c]].name != zone) continue;
+      if (nearest < 0 || (mesh.point[p] - from).norm() < (mesh.point[nearest] - from).norm()) nearest = p;
+    }
+  if (nearest >= 0 && (mesh.point[nearest] - from).norm() < 0.4) mesh.point[nearest] = to;
+}
+
+TEST_CASE("a zone that reaches through its surface, and one that reaches into another's") {
+  const RevolutionSurface surface(rotor_surface());
+  Mesh mesh = cylinder_mesh();
+  move_node(mesh, "rotor", surface.to_parent({0, 0, 0.25}), surface.to_parent({0, 0, 0.7}));
+  CHECK_THAT(error_of(mesh, rotor_surface()), Contains("interface of zone 'rotor'") &&
+                                                  Contains("a blade or cell of zone 'rotor' reaches 0.2 through it, at ("));
+  mesh = cylinder_mesh();
+  move_node(mesh, "ball", surface.to_parent({1.2, 0, 0.25}), surface.to_parent({0.5, 0, 0.25}));
+  CHECK_THAT(error_of(mesh, rotor_surface()), Contains("interface of zone 'rotor'") &&
+                                                  Contains("overlap: zone 'ball' reaches 0.1 into it, at ("));
+}
+
 TEST_CASE("a face across the rim") {
   Mesh mesh = cylinder_mesh();
   const RevolutionSurface surface(rotor_surface());

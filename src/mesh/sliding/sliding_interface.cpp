@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/collective.h"
+#include "mesh/sliding/check_zones.h"
 #include "mesh/sliding/curve_mesh.h"
 
 namespace windhover::mesh {
@@ -178,6 +179,7 @@ std::vector<SlidingInterface> make_sliding_interfaces(Mesh& mesh, std::span<cons
     sides.push_back({gather_side(mesh, surfaces.back(), pair.inner_patch, true, scale),
                      gather_side(mesh, surfaces.back(), pair.outer_patch, false, scale)});
   }
+  check_zones(mesh, surfaces, sides, scale);
   std::vector<CurvedSide> curved;
   for (std::size_t i = 0; i < pairs.size(); ++i)
     for (const InterfaceSide& side : sides[i]) curved.push_back({&surfaces[i], &side});

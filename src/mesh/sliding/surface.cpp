@@ -39,6 +39,11 @@ double RevolutionSurface::reach() const {
   return origin_.norm() + radius_ + along;
 }
 
+bool RevolutionSurface::contains(const Vec3& local) const {
+  if (is_sphere_) return local.norm() <= radius_;
+  return std::hypot(local.x(), local.y()) <= radius_ && local.z() >= z0_ && local.z() <= z1_;
+}
+
 Place RevolutionSurface::place(const Vec3& local) const {
   if (is_sphere_) {
     const double r = local.norm();

@@ -48,6 +48,7 @@ class RevolutionSurface {
 
   /// A node is on the rim when it is nearer to it than the tolerance.
   Place place(const Vec3& local) const;
+  bool contains(const Vec3& local) const;
   double tolerance() const { return 1e-6 * radius_; }
 
  private:
