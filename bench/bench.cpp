@@ -43,7 +43,7 @@ double bytes_of_residual(const mesh::Mesh& mesh) {
          + pairs * (12 + 28)                       // node weights and gradient coefficients with their indices
          + cells * (40 + 24 + 64 + 64 + 64)        // state, centroid; rows written, read for nodes, read for faces
          + cells * (192 + 192)                     // gradients written, read
-         + cells * (64 + 64 + 64 + 40);            // rates cleared, summed, read, stored
+         + cells * (64 + 64 + 40);                 // rates summed, read (and cleared), stored
 }
 
 /// Of all ranks, without what has been freed.
