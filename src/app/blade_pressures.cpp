@@ -42,12 +42,13 @@ BladePressures::BladePressures(const BladeFaces& faces, const mesh::Mesh& mesh, 
   std::vector<Own> own;
   for (size_t f = 0; f < faces.all().size(); ++f)
     for (const double r_over_R : sections_r_over_R)
-      cut(faces, mesh, length_m, f, r_over_R * faces.rotor().blade.radius_m, own);
+      cut(faces, mesh, length_m, f, r_over_R, own);
   number_points(std::move(own), mesh.comm);
 }
 
-void BladePressures::cut(const BladeFaces& faces, const mesh::Mesh& mesh, double length_m, size_t number, double r_m,
+void BladePressures::cut(const BladeFaces& faces, const mesh::Mesh& mesh, double length_m, size_t number, double r_over_R,
                          std::vector<Own>& own) {
+  const double r_m = r_over_R * faces.rotor().blade.radius_m;
   const BladeFace& face = faces.all()[number];
   const Vec3& along = faces.along(face.blade);
   for (const auto& corner : face.triangles) {
@@ -64,7 +65,7 @@ void BladePressures::cut(const BladeFaces& faces, const mesh::Mesh& mesh, double
     const geometry::BladeSection s = faces.section(face.blade, r_m);
     const Vec3 into = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
     const mesh::Index cell = face.block->cell[0][face.lane];
-    own.push_back({{face.blade, r_m / faces.rotor().blade.radius_m, (middle - s.quarter_chord).dot(s.back) / s.chord + 0.25,
+    own.push_back({{face.blade, r_over_R, (middle - s.quarter_chord).dot(s.back) / s.chord + 0.25,
                     into.dot(s.up) < 0 ? 1 : -1},
                    faces.dynamic_pressure(1, r_m), mesh.file_cell[cell], face.block->side[face.lane], rank_of(mesh.comm),
                    static_cast<int>(own.size())});

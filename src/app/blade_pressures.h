@@ -27,7 +27,8 @@ class BladePressures {
 
  private:
   struct Own;
-  void cut(const BladeFaces& faces, const mesh::Mesh& mesh, double length_m, size_t number, double r_m, std::vector<Own>& own);
+  void cut(const BladeFaces& faces, const mesh::Mesh& mesh, double length_m, size_t number, double r_over_R,
+           std::vector<Own>& own);
   void number_points(std::vector<Own> own, MPI_Comm comm);
 
   std::vector<SectionPoint> points_;

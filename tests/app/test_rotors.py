@@ -113,7 +113,7 @@ class Rotors(unittest.TestCase):
 
     def test_tables(self):
         steps = ("--set", "time.step_deg=9", "--set", "time.start_steps=2", "--set", "time.first_step_ratio=0.1",
-                 "--set", "output.fields_interval=25", "--set", "output.section_r_over_R=[0.8, 0.5]")
+                 "--set", "output.fields_interval=25", "--set", "output.section_r_over_R=[0.89, 0.5]")
         self.assertEqual(self.run_program("mesh", CASE).returncode, 0)
         self.assertEqual(self.run_program("run", CASE, "--out", "whole", "--steps", "50", *steps).returncode, 0)
         self.assertEqual(self.run_program("run", CASE, "--out", "parts", "--steps", "25", *steps).returncode, 0)
@@ -171,7 +171,7 @@ class Rotors(unittest.TestCase):
         points = self.rows("whole/rotor_left_sections_mean.csv")
         strips = self.rows("whole/rotor_left_strips_mean.csv")
         for blade in (0, 1):
-            for r_over_R in (0.5, 0.8):
+            for r_over_R in (0.5, 0.89):
                 own = [p for p in points if (p["blade"], p["r_over_R"]) == (blade, r_over_R)]
                 sides = [[(p["x_over_c"], p["Cp"]) for p in own if p["side"] == side] for side in (-1, 1)]
                 for side in sides:
