@@ -152,7 +152,7 @@ TEST_CASE("wrong cases: the message names place, key, value and what is allowed"
   CHECK_THAT(error_of("body.moment_point_m=[1,2]"), Contains("expected three numbers"));
   CHECK_THAT(error_of("body.walls=[\"hul\"]"), Contains("\"hul\" is not a wall") && Contains("did you mean \"hull\"?"));
   CHECK_THAT(error_of("fluid.boundary.outer=far"), Contains("must be one of \"wall\", \"farfield\", \"symmetry\""));
-  CHECK_THAT(error_of("mesh.geometry="), Contains("one of mesh.file, mesh.geometry and a [[rotor]] with blades is needed"));
+  CHECK_THAT(error_of("mesh.geometry="), Contains("one of mesh.file, mesh.geometry, [airframe] and a [[rotor]] with blades is needed"));
   CHECK_THAT(error_of("mesh.parameters.n=many"), Contains("mesh.parameters.n = \"many\": expected a number"));
 }
 
