@@ -113,7 +113,6 @@ void validate(const Case& c, const toml::table& file) {
       throw UserError("{}: {}: name and parent are needed", io::place(file, key), key);
     validate_direction(zone.axis, key + ".axis", file);
   }
-  validate_rotors(c, file);
   validate_vehicle(c, file);
   validate_time(c, file);
   constexpr double most_steps = 1e9;
@@ -133,6 +132,8 @@ Case load_case(const fs::path& file, const std::vector<std::string>& overrides) 
   io::read_options(root, c);
   validate_resolution(c.mesh, root);
   complete(c);
+  validate_rotors(c, root);
+  complete_vehicle(c);
   validate(c, root);
   return c;
 }

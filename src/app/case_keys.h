@@ -107,7 +107,8 @@ void declare(V& v, BodyOptions& o) {
   v.when("kind", o.kind, "prescribed",
          [&] { v.tables("motion", o.motion, "Prescribed motion: elementary motions, the first outermost."); });
   v.when("kind", o.kind, "dynamic", [&] {
-    v.key("center_of_gravity_m", o.center_of_gravity_m, {.doc = "the centre of gravity in the axes of the mesh"});
+    v.key("center_of_gravity_m", o.center_of_gravity_m, {.doc = "the centre of gravity in the axes of the mesh; without mass_kg it, mass and inertia are those of the parts of "
+                "[airframe] and [[rotor]]"});
     declare(v, o.vehicle);
     v.section("integrator", o.integrator, "CVODE, which integrates body, motors and controller.");
   });

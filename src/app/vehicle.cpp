@@ -5,6 +5,7 @@
 #include "base/errors.h"
 #include "base/options.h"
 #include "coupling/schemes.h"
+#include "geometry/mass.h"
 #include "io/options_reader.h"
 
 namespace windhover::app {
@@ -61,7 +62,27 @@ void validate_zones(const Case& c) {
   }
 }
 
+void complete_rotor(const Case& c, body::RotorOptions& rotor) {
+  if (rotor.inertia_kg_m2 != 0) return;
+  for (const geometry::RotorOptions& part : c.rotor)
+    if (part.name == rotor.name && part.mass_kg > 0)
+      rotor.inertia_kg_m2 = part.mass_kg * geometry::squared_radius_of_gyration(part.blade);
+}
+
 }  // namespace
+
+void complete_vehicle(Case& c) {
+  if (!is_dynamic(c)) return;
+  body::VehicleOptions& vehicle = c.body.vehicle;
+  for (auto& rotor : vehicle.rotor) complete_rotor(c, rotor);
+  const geometry::MassProperties parts = geometry::aircraft_mass(c.airframe, c.rotor);
+  if (vehicle.mass_kg != 0 || parts.mass_kg == 0) return;
+  const auto& inertia = parts.inertia_kg_m2;
+  vehicle.mass_kg = parts.mass_kg;
+  vehicle.inertia_kg_m2 = inertia.diagonal();
+  vehicle.inertia_products_kg_m2 = -Vec3(inertia(0, 1), inertia(0, 2), inertia(1, 2));
+  c.body.center_of_gravity_m = parts.center_m;
+}
 
 int rotor_of_zone(const Case& c, const ZoneOptions& zone) {
   if (!is_dynamic(c)) return -1;

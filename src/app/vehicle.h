@@ -10,6 +10,10 @@ namespace windhover::app {
 /// The body moves under the air's loads, not as prescribed.
 inline bool is_dynamic(const Case& c) { return c.body.kind == "dynamic"; }
 
+/// Takes mass, centre of gravity and inertia from the parts of [airframe] and [[rotor]] when the case gives no mass, and the
+/// inertia of each of the body's rotors that has none from the [[rotor]] of its name.
+void complete_vehicle(Case& c);
+
 coupling::VehicleModel vehicle_model(const Case& c);
 
 /// The rotor of the body with this zone's name, or −1.

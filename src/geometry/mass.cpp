@@ -117,6 +117,7 @@ MassProperties mass_of(const PartOptions& part) {
 }
 
 double squared_radius_of_gyration(const BladeOptions& blade) {
+  validate_stations(blade);
   const Stations stations(blade);
   constexpr int samples = 2000;
   double mass = 0, moment = 0;

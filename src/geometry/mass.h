@@ -22,7 +22,7 @@ MassProperties combined(const std::vector<MassProperties>& bodies);
 MassProperties mass_of(const PartOptions& part);
 
 /// Moment of inertia about the axis over the mass: blades as rods whose mass per length goes with the chord squared, since
-/// their thickness goes with the chord; the hub is left out.
+/// their thickness goes with the chord; the hub is left out. UserError: stations that do not fit together.
 double squared_radius_of_gyration(const BladeOptions& blade);
 
 /// A rotor averaged over a turn: flat, half of the axial moment across the axis.

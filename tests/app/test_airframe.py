@@ -5,6 +5,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import tomllib
 import unittest
 
 import numpy as np
@@ -197,6 +198,22 @@ class Airframe(unittest.TestCase):
         self.check_done(self.run_program("check", effective))
         self.check_error(self.run_program("check", CASE, "--set", "airframe.part[1].radius_m=0.11"), "was made from other")
         self.check_done(self.run_program("check", CASE, "--set", "airframe.part[0].mass_kg=3"))
+
+        self.check_dynamic_body()
+
+    def check_dynamic_body(self):
+        """Its mass is that of the parts, and a rotor's inertia follows from its blades."""
+        case = CASE.replace("[time]", '[body]\nkind = "dynamic"\n[[body.rotor]]\nname = "rear"\nspin_axis = [0, -1, 0]\nmotor.kind = "servo"\n'
+                            "[controller]\nspeed_rad_s = {rear = 100}\n[time]")
+        self.check_done(self.run_program("run", case, "--steps", "1", "--out", "fall"))
+        body = tomllib.loads((self.folder / "fall/case.toml").read_text())["body"]
+        self.assertAlmostEqual(body["mass_kg"], 2 + 0.2 + 20 * (math.pi * 0.1**2 * 1.1 + 4 / 3 * math.pi * 0.1**3))
+        np.testing.assert_allclose(body["center_of_gravity_m"], [0, 0.2 * 0.6 / body["mass_kg"], 0], atol=1e-12)
+        self.assertGreater(min(body["inertia_kg_m2"]), 0.1)
+        chord = lambda r: 0.2 - 0.05 * (r - 0.25) / 0.75
+        r = np.linspace(0.25, 1, 20001)
+        gyration = np.sum(chord(r) ** 2 * r**2) / np.sum(chord(r) ** 2)
+        self.assertAlmostEqual(body["rotor"][0]["inertia_kg_m2"] / (0.1 * gyration), 1, places=3)
 
     def write_step(self, shape):
         """Its unit is the millimetre."""
