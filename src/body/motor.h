@@ -11,6 +11,9 @@ struct ServoMotor {
   double time_constant;  ///< s
 
   double acceleration(double command, double speed) const { return (command - speed) / time_constant; }
+
+  /// The command that keeps a speed against the air's torque (N m, negative: it brakes).
+  double holding(double speed, double) const { return speed; }
 };
 
 /// A direct-current motor without inductance: loads slow it down. The command sets its voltage: that of the commanded
@@ -25,10 +28,22 @@ struct TorqueMotor {
 
   /// Torque on the rotor (N m).
   double torque(double command, double speed) const {
-    constexpr double kSlow = 1;  // rad/s: constant friction fades below, so that a rotor can stand still
     const double voltage = std::clamp(torque_constant * command + governor * (command - speed), 0.0, supply);
     const double current = (voltage - torque_constant * speed) / resistance;
-    return torque_constant * current - friction * std::tanh(speed / kSlow) - viscous_friction * speed;
+    return torque_constant * current - losses(speed);
+  }
+
+  /// The command that keeps a speed against the air's torque (N m, negative: it brakes), as far as the supply goes.
+  double holding(double speed, double air_torque) const {
+    const double current = (losses(speed) - air_torque) / torque_constant;
+    const double voltage = std::clamp(resistance * current + torque_constant * speed, 0.0, supply);
+    return (voltage + governor * speed) / (torque_constant + governor);
+  }
+
+ private:
+  double losses(double speed) const {
+    constexpr double kSlow = 1;  // rad/s: constant friction fades below, so that a rotor can stand still
+    return friction * std::tanh(speed / kSlow) + viscous_friction * speed;
   }
 };
 

@@ -10,18 +10,36 @@ Mount::Mount(const std::array<Freedom, 6>& freedoms) : freedoms_(freedoms) {
 }
 
 void Mount::initial(std::span<double> positions, std::span<double> speeds) const {
-  Vec3 angles, rates;
+  Vec6 coordinates, rates;
+  for (int k = 0; k < 6; ++k) coordinates[k] = freedoms_[k].initial, rates[k] = freedoms_[k].initial_rate;
+  place(coordinates, rates, positions, speeds);
+}
+
+void Mount::place(const Vec6& coordinates, const Vec6& rates, std::span<double> positions,
+                  std::span<double> speeds) const {
   int i = 0;
-  for (int k = 0; k < 6; ++k) {
-    const Freedom& freedom = freedoms_[k];
-    if (k >= 3) angles[k - 3] = freedom.initial, rates[k - 3] = freedom.initial_rate;
-    if (!freedom.is_state() || (k >= 3 && !gimbal_)) continue;
-    positions[i] = freedom.initial;
-    speeds[i++] = freedom.initial_rate;
+  for (int k = 0; k < (gimbal_ ? 6 : 3); ++k) {
+    if (!freedoms_[k].is_state()) continue;
+    positions[i] = coordinates[k];
+    speeds[i++] = rates[k];
   }
   if (gimbal_) return;
+  const Vec3 angles = coordinates.tail<3>();
   Vec4::Map(&positions[i]) = quaternion_of(gimbal_rotation(angles));
-  Vec3::Map(&speeds[i]) = gimbal_axes(angles) * rates;
+  Vec3::Map(&speeds[i]) = gimbal_axes(angles) * rates.tail<3>();
+}
+
+Vec6 Mount::coordinates(double t, std::span<const double> positions) const {
+  Vec6 coordinates;
+  int i = 0;
+  for (int k = 0; k < 6; ++k) {
+    if (!freedoms_[k].is_state())
+      coordinates[k] = freedoms_[k].motion->value(t);
+    else if (k < 3 || gimbal_)
+      coordinates[k] = positions[i++];
+  }
+  if (!gimbal_) coordinates.tail<3>() = gimbal_angles(rotation_of(Vec4::Map(&positions[i])));
+  return coordinates;
 }
 
 MountMotion Mount::evaluate(double t, std::span<const double> positions, std::span<const double> speeds) const {

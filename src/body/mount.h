@@ -15,6 +15,9 @@ using Speeds = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 using SpeedMap = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6>;
 using SpeedMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
+/// The degrees of freedom in their order, as the case calls them.
+inline constexpr std::array<const char*, 6> kFreedomNames = {"x", "y", "z", "rotation_x", "rotation_y", "rotation_z"};
+
 /// Coordinate of one degree of freedom: a function of time (locked, prescribed), or a state under a spring's force.
 struct Freedom {
   std::optional<Signal> motion = {};
@@ -46,6 +49,11 @@ class Mount {
   int position_size() const { return translations_ + (gimbal_ ? rotations_ : 4); }
   int speed_size() const { return translations_ + rotations_; }
   void initial(std::span<double> positions, std::span<double> speeds) const;
+
+  /// The states at given coordinates and rates; those that are no states are left out. And the coordinates at states.
+  void place(const Vec6& coordinates, const Vec6& rates, std::span<double> positions, std::span<double> speeds) const;
+  Vec6 coordinates(double t, std::span<const double> positions) const;
+  const std::array<Freedom, 6>& freedoms() const { return freedoms_; }
 
   MountMotion evaluate(double t, std::span<const double> positions, std::span<const double> speeds) const;
   void position_rates(std::span<const double> positions, std::span<const double> speeds, std::span<double> rates) const;

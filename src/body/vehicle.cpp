@@ -96,13 +96,12 @@ Freedom build_freedom(const FreedomOptions& o, double initial, double initial_ra
 Mount build_mount(const VehicleOptions& o, const std::string& prefix) {
   const MountOptions& m = o.mount;
   const FreedomOptions* list[] = {&m.x, &m.y, &m.z, &m.rotation_x, &m.rotation_y, &m.rotation_z};
-  const char* names[] = {"x", "y", "z", "rotation_x", "rotation_y", "rotation_z"};
   std::array<Freedom, 6> freedoms;
   int rotations = 0;
   for (int k = 0; k < 6; ++k) {
     const double initial = k < 3 ? o.position_m[k] : o.rotation_rad[k - 3];
     const double rate = k < 3 ? o.velocity_m_s[k] : o.rotation_rate_rad_s[k - 3];
-    freedoms[k] = build_freedom(*list[k], initial, rate, prefix + "mount." + names[k]);
+    freedoms[k] = build_freedom(*list[k], initial, rate, prefix + "mount." + kFreedomNames[k]);
     if (k >= 3) rotations += freedoms[k].is_state();
   }
   // A gimbal whose outer and inner axes fall together has lost one of its motions.

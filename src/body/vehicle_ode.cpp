@@ -9,6 +9,13 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 Mat3 cross_matrix(const Vec3& a) { return (Mat3() << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0).finished(); }
 
+/// (acceleration of the centre of gravity, angular acceleration) = this · (that of P, angular acceleration), at rest.
+Mat6 to_center(const Mat3& R_WB, const Vec3& p_PG_B) {
+  Mat6 map = Mat6::Identity();
+  map.topRightCorner<3, 3>() = -R_WB * cross_matrix(p_PG_B);
+  return map;
+}
+
 /// What the rotors add to the equations of the body.
 struct RotorSums {
   Mat3 free_inertia = Mat3::Zero();  ///< of rotors that turn under torque: the body does not turn it about their axes
@@ -77,8 +84,7 @@ void VehicleOde::derivative(double t, std::span<const double> y, std::span<const
 
   // Newton–Euler for the accelerations of P and the angular accelerations; v̇_G = a_P + R (ω̇ × p + ω × (ω × p)).
   const Vec3 p_PG_B = -vehicle_.p_GP_B;
-  Mat6 to_center = Mat6::Identity();
-  to_center.topRightCorner<3, 3>() = -m.R_WB * cross_matrix(p_PG_B);
+  const Mat6 to_center = body::to_center(m.R_WB, p_PG_B);
   Mat6 mass = Mat6::Zero();
   mass.topLeftCorner<3, 3>() = vehicle_.mass * Mat3::Identity();
   mass.bottomRightCorner<3, 3>() = vehicle_.inertia_BG_B - sums.free_inertia;
@@ -102,6 +108,14 @@ void VehicleOde::derivative(double t, std::span<const double> y, std::span<const
   for (int j = 0; j < rotors(); ++j)
     if (std::holds_alternative<TorqueMotor>(vehicle_.rotors[j].motor))
       rotor_rate[j] -= vehicle_.rotors[j].spin_axis_B.dot(angular_acceleration);
+}
+
+Speeds VehicleOde::unbalanced(double t, std::span<const double> y, std::span<const double> loads) const {
+  const MountMotion m = vehicle_.mount.evaluate(t, positions(y), speeds(y));
+  Vec6 force;
+  force.head<3>() = Vec3::Map(&loads[LoadLayout::force]) + vehicle_.mass * vehicle_.gravity_W;
+  force.tail<3>() = m.R_WB.transpose() * Vec3::Map(&loads[LoadLayout::torque]);
+  return m.map.transpose() * (to_center(m.R_WB, -vehicle_.p_GP_B).transpose() * force) + m.force;
 }
 
 void VehicleOde::project(std::span<double> y) const {

@@ -39,6 +39,11 @@ class VehicleOde {
   void derivative(double t, std::span<const double> y, std::span<const double> loads, std::span<const double> command,
                   std::span<double> rate) const;
 
+  /// What is left of the forces (N, N m) on each of the mount's speeds when the vehicle does not turn and its rotors keep
+  /// their speeds: air, gravity and springs. Zero: it stays as it is. For a free body: along the inertial axes, then about
+  /// the body axes and the mount's point.
+  Speeds unbalanced(double t, std::span<const double> y, std::span<const double> loads) const;
+
   /// Back to a quaternion of length 1.
   void project(std::span<double> y) const;
 

@@ -50,22 +50,14 @@ class Cascade : public Controller {
     const CascadeOptions& o = options_;
 
     // Position and velocity: an acceleration, and the specific force that gives it within the limits.
-    Vec3 velocity = o.position_gain_1_s.cwiseProduct(setpoint.p_W - m.p_WoG_W);
-    if (velocity.norm() > o.max_speed_m_s) velocity *= o.max_speed_m_s / velocity.norm();
-    const Vec3 velocity_error = velocity - m.v_WG_W;
+    const Vec3 velocity_error = this->velocity_error(m, setpoint);
     const Vec3 acceleration = o.velocity_gain_1_s.cwiseProduct(velocity_error) + in(kVelocityIntegral);
     const Vec3 weight = Vec3::UnitY() * airframe_.gravity;
     const Vec3 specific_force = limited(acceleration + weight);
 
-    // Attitude: an angular velocity.
-    const Mat3 R_BD = m.R_WB.transpose() * attitude_for(specific_force, setpoint.yaw);
-    const Vec3 limit = o.max_rate_deg_s * kRadians;
-    const Vec3 angular_velocity =
-        o.attitude_gain_1_s.cwiseProduct(rotation_error(R_BD)).cwiseMax(-limit).cwiseMin(limit);
-
-    // Angular velocity: an angular acceleration, and the torque that gives it.
+    // Attitude: an angular velocity, an angular acceleration, and the torque that gives it.
     const Vec3& omega = m.omega_WB_B;
-    const Vec3 rate_error = angular_velocity - omega;
+    const Vec3 rate_error = this->rate_error(m, setpoint, specific_force);
     const Vec3 filtered_acceleration = (omega - in(kRateFilter)) / o.rate_filter_s;
     const Vec3 angular_acceleration = o.rate_gain_1_s.cwiseProduct(rate_error) +
                                       in(kRateIntegral)-o.rate_derivative.cwiseProduct(filtered_acceleration);
@@ -85,7 +77,39 @@ class Cascade : public Controller {
     return mixer_.speeds(allocation.thrust);
   }
 
+  std::vector<double> state_for(const Measurement& m, const Setpoint& setpoint, const Command& command) const override {
+    const CascadeOptions& o = options_;
+    Eigen::VectorXd thrust(command.rotor_speed.size());
+    for (Eigen::Index j = 0; j < thrust.size(); ++j) thrust[j] = airframe_.rotors[j].thrust(command.rotor_speed[j]);
+    const Wrench wrench = mixer_.produced(thrust);
+    const Vec3 specific_force = m.R_WB.col(1) * (wrench.thrust / airframe_.mass), &omega = m.omega_WB_B;
+    const Vec3 angular_acceleration =
+        inverse_inertia_ * (wrench.torque_B - omega.cross(airframe_.inertia_BG_B * omega));
+    std::vector<double> state(kStateSize);
+    Vec3::Map(&state[kVelocityIntegral]) = specific_force - Vec3::UnitY() * airframe_.gravity -
+                                           o.velocity_gain_1_s.cwiseProduct(velocity_error(m, setpoint));
+    Vec3::Map(&state[kRateIntegral]) =
+        angular_acceleration - o.rate_gain_1_s.cwiseProduct(rate_error(m, setpoint, limited(specific_force)));
+    Vec3::Map(&state[kRateFilter]) = omega;
+    return state;
+  }
+
  private:
+  /// What is missing to the velocity that the position asks for.
+  Vec3 velocity_error(const Measurement& m, const Setpoint& setpoint) const {
+    Vec3 velocity = options_.position_gain_1_s.cwiseProduct(setpoint.p_W - m.p_WoG_W);
+    if (velocity.norm() > options_.max_speed_m_s) velocity *= options_.max_speed_m_s / velocity.norm();
+    return velocity - m.v_WG_W;
+  }
+
+  /// What is missing to the angular velocity that the attitude asks for.
+  Vec3 rate_error(const Measurement& m, const Setpoint& setpoint, const Vec3& specific_force) const {
+    const Mat3 R_BD = m.R_WB.transpose() * attitude_for(specific_force, setpoint.yaw);
+    const Vec3 limit = options_.max_rate_deg_s * kRadians;
+    return options_.attitude_gain_1_s.cwiseProduct(rotation_error(R_BD)).cwiseMax(-limit).cwiseMin(limit) -
+           m.omega_WB_B;
+  }
+
   /// Upwards, and within the tilt limit.
   Vec3 limited(Vec3 specific_force) const {
     specific_force.y() = std::max(specific_force.y(), kLeastLift * airframe_.gravity);

@@ -13,6 +13,7 @@ class ConstantSpeeds : public Controller {
   Command evaluate(const Measurement&, const Setpoint&, std::span<const double>, std::span<double>) const override {
     return command_;
   }
+  std::vector<double> state_for(const Measurement&, const Setpoint&, const Command&) const override { return {}; }
 
  private:
   Command command_;

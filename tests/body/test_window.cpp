@@ -186,3 +186,10 @@ TEST_CASE("a governor holds the speed that is commanded; without one a load slow
   CHECK(loaded_speed(free) == Approx(400).epsilon(1e-6));
   CHECK(loaded_speed(governed) == Approx(500).epsilon(0.005));
 }
+
+TEST_CASE("motors: the command that holds a speed holds it", "[body]") {
+  const TorqueMotor motor{.torque_constant = 0.01, .resistance = 0.1, .supply = 12, .friction = 2e-3, .viscous_friction = 1e-5, .governor = 0.02};
+  const double speed = 400, air = -0.06;
+  CHECK(motor.torque(motor.holding(speed, air), speed) + air == Approx(0).margin(1e-15));
+  CHECK(ServoMotor{0.03}.acceleration(ServoMotor{0.03}.holding(speed, air), speed) == 0);
+}

@@ -153,3 +153,18 @@ TEST_CASE("more samples approach the continuous controller, first order in the i
   INFO("errors " << coarse << ", " << fine);
   CHECK(coarse / fine == Approx(2).margin(0.4));
 }
+
+TEST_CASE("cascade: the states for a command give it, and stay", "[control]") {
+  const Airframe airframe = quadcopter();
+  ControllerOptions options;
+  options.kind = "cascade";
+  const auto controller = make_controller(options, airframe);
+  Measurement m;
+  m.R_WB = Eigen::AngleAxisd(-0.15, Vec3::UnitZ()).toRotationMatrix();
+  const Command command{{430, 425, 470, 475}};
+  const std::vector<double> state = controller->state_for(m, {}, command);
+  std::vector<double> rate(state.size());
+  const Command given = controller->evaluate(m, {}, state, rate);
+  for (int j = 0; j < 4; ++j) CHECK(given.rotor_speed[j] == Approx(command.rotor_speed[j]).epsilon(1e-12));
+  for (const double r : rate) CHECK(std::abs(r) < 1e-10);
+}
