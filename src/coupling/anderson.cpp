@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "base/petsc.h"
+#include "coupling/first_factor.h"
 #include "coupling/scheme.h"
 
 namespace windhover::coupling {
@@ -30,6 +31,7 @@ void check(int flag) {
 /// What the system function needs; vectors in KINSOL are scaled.
 struct Problem {
   FixedPoint& fixed_point;
+  FirstFactor& first;
   VectorXd scale;
   double relaxation;
   bool stopped = false;
@@ -40,9 +42,13 @@ int system_function(N_Vector x, N_Vector g, void* data) {
   constexpr int kStop = -1;
   Problem& problem = *static_cast<Problem*>(data);
   const int failed = problem.guard.run([&] {
-    const auto answer = problem.fixed_point.evaluate(values(x).cwiseProduct(problem.scale), problem.relaxation);
+    const VectorXd proposed = values(x).cwiseProduct(problem.scale);
+    const auto answer = problem.fixed_point.evaluate(proposed, problem.relaxation);
     problem.stopped = !answer;
-    if (answer) values(g) = answer->cwiseQuotient(problem.scale);
+    if (!answer) return;
+    const VectorXd residual = (*answer - proposed).cwiseQuotient(problem.scale);
+    problem.first.observe(residual);
+    values(g) = values(x) + problem.relaxation * residual;  // KINSOL's own damping leaves out the first iteration
   });
   return failed || problem.stopped ? kStop : 0;
 }
@@ -52,7 +58,7 @@ void no_message(int, const char*, const char*, char*, void*) {}
 class Anderson : public Scheme {
  public:
   Anderson(const CouplingOptions& options, int size, int motions)
-      : options_(options), context_(nullptr, [](SUNContext c) { SUNContext_Free(&c); }) {
+      : first_(options.relaxation), context_(nullptr, [](SUNContext c) { SUNContext_Free(&c); }) {
     SUNContext context = nullptr;
     check(SUNContext_Create(nullptr, &context));
     context_.reset(context);
@@ -64,13 +70,16 @@ class Anderson : public Scheme {
     // residuals vary in as many directions as the vehicle has motions; further columns would be linearly dependent
     check(KINSetMAA(kinsol_.get(), std::clamp(motions, 1, options.columns)));
     check(KINInit(kinsol_.get(), system_function, x_.get()));
-    check(KINSetDampingAA(kinsol_.get(), options.relaxation));
     check(KINSetErrHandlerFn(kinsol_.get(), no_message, nullptr));
     check(KINSetFuncNormTol(kinsol_.get(), 1e-300));  // the fixed point judges
   }
 
+  void accept() override { first_.keep(); }
+  std::vector<double> state() const override { return first_.state(); }
+  void restore(std::span<const double> state) override { first_.restore(state); }
+
   void solve(VectorXd x, FixedPoint& fixed_point) override {
-    Problem problem{fixed_point, fixed_point.scale(), options_.relaxation};
+    Problem problem{fixed_point, first_, fixed_point.scale(), first_.begin()};
     check(KINSetUserData(kinsol_.get(), &problem));
     values(x_.get()) = x.cwiseQuotient(problem.scale);
     while (!problem.stopped) {  // KINSOL ends by itself only where x stands still while the flow is not yet solved
@@ -80,7 +89,7 @@ class Anderson : public Scheme {
   }
 
  private:
-  CouplingOptions options_;
+  FirstFactor first_;
   std::unique_ptr<_SUNContext, void (*)(SUNContext)> context_;
   Vector x_, one_;
   std::unique_ptr<void, FreeKinsol> kinsol_;

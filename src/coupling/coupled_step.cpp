@@ -30,19 +30,29 @@ class CoupledStep::Problem : public FixedPoint {
   Problem(CoupledStep& step, double end) : step_(step), start_(step.state_.vehicle), end_(end), scale_(least_scale()) {
     for (const auto& point : step.state_.loads) widen_scale(point.loads);
     known_ = step.state_.loads.back().loads;
+    moves_ = step.window_.responding_loads(start_);
   }
 
+  /// Loads that move nothing, such as those on a locked axis, are taken as answered and kept from the scheme: they would
+  /// be relaxed in vain.
   std::optional<VectorXd> evaluate(const VectorXd& x, double relaxation) override {
     Iteration iteration{.relaxation = relaxation};
-    const bool going_on = try_loads(x, iteration);
+    const bool first = result_.iterations.empty();
+    const bool going_on = try_loads(first ? x : moves_.select(x, answer_.loads), iteration);
     result_.accepted = iteration.accepted;
     result_.iterations.push_back(iteration);
     if (!going_on) return {};
-    return answer_.loads;
+    return moves_.select(answer_.loads, x);
   }
   bool flow_converged() const override { return answer_.converged; }
   const VectorXd& scale() const override { return scale_; }
   double tolerance() const override { return step_.options_.tolerance; }
+
+  /// Prediction that brings the loads that move something closest.
+  VectorXd first_guess() const {
+    const VectorXd ignored = VectorXd::Constant(scale_.size(), HUGE_VAL);
+    return predict(step_.entry_.prediction, step_.state_.loads, end_, moves_.select(scale_, ignored));
+  }
 
   const StepResult& result() const { return result_; }
   const VehicleState& candidate() const { return candidate_; }
@@ -125,6 +135,7 @@ class CoupledStep::Problem : public FixedPoint {
   const VehicleState& start_;
   double end_;
   VectorXd scale_, known_;
+  Window::Responses moves_;
   VehicleState candidate_;
   FluidSide::Answer answer_;
   StepResult result_;
@@ -139,15 +150,15 @@ CoupledStep::CoupledStep(const Window& window, FluidSide& fluid, const CouplingO
       scheme_(entry_.make(options, window.interface_size(), window.responding_motions())),
       reference_(reference) {}
 
-void CoupledStep::start() {
-  state_.vehicle = window_.start();
+void CoupledStep::start(const VehicleState& vehicle) {
+  state_.vehicle = vehicle;
   state_.loads = {{state_.vehicle.t, fluid_.loads(state_.vehicle)}};
 }
 
 StepResult CoupledStep::advance(double end) {
   fluid_.begin([this](double) { return state_.vehicle; }, end - state_.vehicle.t);
   Problem problem(*this, end);
-  scheme_->solve(predict(entry_.prediction, state_.loads, end, problem.scale()), problem);
+  scheme_->solve(problem.first_guess(), problem);
   if (!problem.result().accepted) {
     scheme_->reject();
     return problem.result();

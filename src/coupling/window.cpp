@@ -34,6 +34,20 @@ int Window::responding_motions() const {
          }));
 }
 
+Window::Responses Window::responding_loads(const VehicleState& s) const {
+  const std::vector<double> commands(vehicle_.rotors());
+  const auto rates = [&](const Eigen::VectorXd& loads) {
+    std::vector<double> rate(vehicle_.size());
+    const std::span<const double> values(loads.data(), static_cast<size_t>(loads.size()));
+    vehicle_.derivative(s.t, std::span(s.y).first(vehicle_.size()), values, commands, rate);
+    return rate;
+  };
+  const auto free = rates(Eigen::VectorXd::Zero(interface_size()));
+  Responses responds(interface_size());
+  for (int i = 0; i < interface_size(); ++i) responds[i] = rates(Eigen::VectorXd::Unit(interface_size(), i)) != free;
+  return responds;
+}
+
 VehicleState Window::start() const {
   VehicleState s{.t = 0, .y = vehicle_.initial_state(), .sampled = sampler_.start()};
   if (!is_sampled()) s.y.resize(s.y.size() + controller_->state_size());

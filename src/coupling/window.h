@@ -34,6 +34,10 @@ class Window {
   /// Motions that answer to the loads: the mount's and those of rotors on torque-driven motors.
   int responding_motions() const;
 
+  /// Which loads (LoadLayout) change how this state goes on: not those on locked axes, nor the torques on servo motors.
+  using Responses = Eigen::Array<bool, Eigen::Dynamic, 1>;
+  Responses responding_loads(const VehicleState& s) const;
+
   VehicleState start() const;
   body::Kinematics kinematics(const VehicleState& s) const { return vehicle_.kinematics(s.t, s.y); }
   double rotor_speed(const VehicleState& s, int j) const { return s.y[vehicle_.rotor_speed_offset() + j]; }

@@ -39,12 +39,14 @@ class AcousticSphere : public FluidSide {
   int order() const override { return 2; }
 
   int begun = 0, iterated = 0;
+  double side_force = 0;  ///< on the locked y axis: changes sign and grows from step to step
 
  private:
   double velocity(const VehicleState& vehicle) const { return window_.kinematics(vehicle).v_WG_W.x(); }
   VectorXd load(double velocity, const Eigen::Vector2d& air) const {
     VectorXd loads = VectorXd::Zero(window_.interface_size());
     loads[0] = -(velocity - air[1] - 2 * air[0]);
+    loads[1] = side_force * begun * (begun % 2 ? 1 : -1);
     return loads;
   }
 

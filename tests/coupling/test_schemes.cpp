@@ -88,6 +88,45 @@ TEST_CASE("a light sphere at steps of several a/c: strong schemes agree and are 
   }
 }
 
+TEST_CASE("loads on locked axes move nothing and cost no iterations", "[coupling]") {
+  const SphereCase sphere{.mass = 0.2};
+  for (const std::string name : {"constant", "aitken", "anderson", "iqn-ils"}) {
+    CAPTURE(name);
+    CouplingOptions options = scheme(name, 0.3);
+    options.force_scale_N = 20;  // the same for both
+    options.tolerance = 1e-11;
+    SphereRun alone(sphere, options), loaded(sphere, options);
+    loaded.air.side_force = 1;  // the force along x is of the order of 0.01
+    const auto responds = loaded.window.responding_loads(loaded.step.state().vehicle);
+    CHECK(responds[0]);
+    CHECK(responds.count() == 1);
+    for (int i = 0; i < 10; ++i) {
+      const StepResult one = alone.advance(0.5), two = loaded.advance(0.5);
+      REQUIRE(one.accepted);
+      REQUIRE(two.accepted);
+      CHECK(two.iterations.size() <= std::max<size_t>(one.iterations.size(), 2));
+      CHECK(loaded.displacement() == Approx(alone.displacement()).margin(1e-7 * sphere.start));
+      CHECK(loaded.step.state().loads.back().loads[1] == Approx((i + 1) * (i % 2 ? -1 : 1)));
+    }
+  }
+}
+
+TEST_CASE("aitken and anderson begin a step with the factor that the one before found", "[coupling]") {
+  const SphereCase sphere{.mass = 0.2};
+  for (const std::string name : {"aitken", "anderson"}) {
+    CAPTURE(name);
+    SphereRun run(sphere, scheme(name));
+    REQUIRE(run.advance(0.5).accepted);
+    const double found = run.step.pack().back();  // the scheme's state is packed last
+    CHECK(found > 0.1);
+    CHECK(found < 0.6);
+    const StepResult second = run.advance(0.5);
+    REQUIRE(second.iterations.size() > 1);
+    CHECK(second.iterations[0].relaxation == found);
+    CHECK(second.iterations[1].load_residual < 0.05 * second.iterations[0].load_residual);
+  }
+}
+
 TEST_CASE("no step is accepted before the flow is solved", "[coupling]") {
   const SphereCase sphere{.mass = 5, .stiffness = 5};
   for (const std::string name : {"constant", "aitken", "anderson", "iqn-ils"}) {
