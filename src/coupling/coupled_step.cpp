@@ -5,6 +5,7 @@
 
 #include "base/errors.h"
 #include "coupling/predictor.h"
+#include "coupling/step_control.h"
 
 namespace windhover::coupling {
 namespace {
@@ -52,6 +53,19 @@ class CoupledStep::Problem : public FixedPoint {
   VectorXd first_guess() const {
     const VectorXd ignored = VectorXd::Constant(scale_.size(), HUGE_VAL);
     return predict(step_.entry_.prediction, step_.state_.loads, end_, moves_.select(scale_, ignored));
+  }
+
+  /// Refuses a step that is solved but too large.
+  void judge_size() {
+    if (!result_.accepted || step_.fluid_.order() < 2) return;
+    auto points = step_.state_.loads;
+    points.push_back({end_, answer_.loads});
+    result_.error = load_error(points, scale_, moves_);
+    const double tolerance = step_.options_.step_tolerance;
+    if (tolerance == 0 || !result_.error || *result_.error <= tolerance) return;
+    result_.accepted = result_.iterations.back().accepted = false;
+    lost(fmt::format("the loads are not linear over the step: error {:.2g}, coupling.step_tolerance {:.2g}",
+                     *result_.error, tolerance));
   }
 
   const StepResult& result() const { return result_; }
@@ -159,6 +173,7 @@ StepResult CoupledStep::advance(double end) {
   fluid_.begin([this](double) { return state_.vehicle; }, end - state_.vehicle.t);
   Problem problem(*this, end);
   scheme_->solve(problem.first_guess(), problem);
+  problem.judge_size();
   if (!problem.result().accepted) {
     scheme_->reject();
     return problem.result();

@@ -43,6 +43,7 @@ struct Iteration {
 struct StepResult {
   bool accepted = false;
   std::string reason;
+  std::optional<double> error;  ///< load_error() of a step on which vehicle and air agree
   std::vector<Iteration> iterations;
 };
 
@@ -64,8 +65,9 @@ class CoupledStep {
 
   const CoupledState& state() const { return state_; }
 
-  /// From the vehicle's start and the accepted flow.
-  void start();
+  /// From this vehicle and the accepted flow.
+  void start(const VehicleState& vehicle);
+  void start() { start(window_.start()); }
 
   /// One step to `end`. Not accepted: state and flow are as before, and the reason is told.
   StepResult advance(double end);

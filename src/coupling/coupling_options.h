@@ -16,6 +16,7 @@ struct CouplingOptions {
   int reuse_steps = 4;
   double filter = 1e-3;
   double force_scale_N = 0, moment_scale_Nm = 0;
+  double step_tolerance = 0;
 };
 
 }  // namespace windhover::coupling

@@ -16,6 +16,7 @@ control::Airframe airframe(const body::Vehicle& vehicle, const std::vector<contr
 }
 
 constexpr double kLeastMotion = 1e-6;
+constexpr double kSameTime = 1e-12;  // times this close, relative to themselves, are one
 
 }  // namespace
 
@@ -85,6 +86,13 @@ VehicleState Window::advance(const VehicleState& start, const body::LoadPolynomi
     s.t = stop;
   }
   return s;
+}
+
+double Window::next_event(const VehicleState& s) const {
+  const double after = s.t * (1 + kSameTime);
+  double event = plan_.next_change(after);
+  if (is_sampled()) event = std::min(event, (std::floor(after * sampler_rate_) + 1) / sampler_rate_);
+  return event;
 }
 
 double Window::pose_difference(const VehicleState& start, const VehicleState& a, const VehicleState& b,

@@ -46,6 +46,9 @@ class Window {
   /// The state at `end`. CVODE stops at samples and where the setpoint jumps. SolverFailure when CVODE gives up.
   VehicleState advance(const VehicleState& start, const body::LoadPolynomial& loads, double end) const;
 
+  /// The first time after s at which the setpoint jumps or the controller takes a sample; infinite when there is none.
+  double next_event(const VehicleState& s) const;
+
   /// How far apart two outcomes of one window are, relative to the motion over it: the largest of position, attitude and
   /// rotor angles. Motions below a millionth of `length` (m), or of a radian, count as that much.
   double pose_difference(const VehicleState& start, const VehicleState& a, const VehicleState& b, double length) const;
