@@ -19,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double radians = std::numbers::pi / 180;
+constexpr const char* kClock = "the clock starts at 0, where it would be elsewhere";
 
 std::string case_name(const fs::path& file) {
   return file.filename() == "case.toml" ? file.parent_path().filename().string() : file.stem().string();
@@ -75,6 +76,20 @@ void validate_time(const Case& c, const toml::table& file) {
                     io::place(file, "time.step_deg"), *time.step_deg);
 }
 
+/// A flow that has begun elsewhere fits a vehicle that it brings along, but no motion that time alone prescribes.
+void validate_start(const Case& c, const toml::table& file) {
+  if (c.time.start_from.empty()) return;
+  const std::string at = io::place(file, "time.start_from");
+  for (size_t i = 0; i < c.zone.size(); ++i)
+    if (rotor_of_zone(c, c.zone[i]) < 0 && (c.zone[i].rate_deg_s != 0 || c.zone[i].amplitude_deg != 0))
+      throw UserError("{}: time.start_from: \"{}\" turns as prescribed: {}", at, c.zone[i].name, kClock);
+  for (size_t i = 0; !is_dynamic(c) && i < c.body.motion.size(); ++i) {
+    const MotionOptions& m = c.body.motion[i];
+    if (m.amplitude_m != 0 || m.amplitude_deg != 0 || m.rate_deg_s != 0)
+      throw UserError("{}: time.start_from: body.motion[{}] moves the body as prescribed: {}", at, i, kClock);
+  }
+}
+
 void validate_resolution(const MeshOptions& mesh, const toml::table& file) {
   if (mesh.resolution.empty() || mesh.resolutions.contains(mesh.resolution)) return;
   std::vector<std::string> names;
@@ -115,6 +130,7 @@ void validate(const Case& c, const toml::table& file) {
   }
   validate_vehicle(c, file);
   validate_time(c, file);
+  validate_start(c, file);
   constexpr double most_steps = 1e9;
   if (c.time.end_s && *c.time.end_s / step_seconds(c) > most_steps)
     throw UserError("{}: time.end_s = {}: is more than {} steps of {} s", io::place(file, "time.end_s"), *c.time.end_s,

@@ -11,6 +11,7 @@
 #include "body/vehicle_options.h"
 #include "control/control_options.h"
 #include "coupling/coupling_options.h"
+#include "coupling/trim_options.h"
 #include "geometry/rotor_options.h"
 #include "mesh/motion.h"
 
@@ -115,6 +116,7 @@ struct TimeOptions {
   std::optional<double> end_s;
   int start_steps = 0;
   double first_step_ratio = 1;
+  std::string start_from;  ///< results of another run; empty: none
 };
 
 struct SolverOptions {
@@ -151,6 +153,7 @@ struct Case {
   std::vector<ZoneOptions> zone;  ///< after load_case: those of rotors as well
   ControllerOptions controller;
   coupling::CouplingOptions coupling;
+  coupling::TrimOptions trim;
   TimeOptions time;
   SolverOptions solver;
   OutputOptions output;

@@ -5,6 +5,7 @@
 #include "body/vehicle_keys.h"
 #include "control/control_keys.h"
 #include "coupling/coupling_keys.h"
+#include "coupling/trim_keys.h"
 #include "geometry/rotor_keys.h"
 
 namespace windhover::app {
@@ -164,7 +165,9 @@ void declare(V& v, TimeOptions& o) {
   v.key("end_s", o.end_s, {.doc = "time at which the run ends", .above = 0});
   v.key("first_step_ratio", o.first_step_ratio,
         {.doc = "first step over the nominal one, from which steps double: for steady flows with large steps", .above = 0, .max = 1});
-  v.key("start_steps", o.start_steps, {.doc = "backward-Euler steps at the start, for impulsive starts", .min = 0});
+  v.key("start_steps", o.start_steps, {.doc = "backward-Euler steps at the start, for impulsive starts; none with start_from", .min = 0});
+  v.key("start_from", o.start_from,
+        {.doc = "folder of a run or trim on the same mesh from whose newest checkpoint flow and vehicle start, at t = 0"});
 }
 
 template <class V>
@@ -216,6 +219,7 @@ void declare(V& v, Case& o) {
   v.tables("zone", o.zone, "Zones that turn inside others; the rest of the mesh moves with the body.");
   v.section("controller", o.controller, "What commands the rotors of a dynamic body.");
   v.section("coupling", o.coupling, "How a dynamic body and the air are brought together in a step.");
+  v.section("trim", o.trim, "What `windhover trim` seeks, and when it has found it.");
   v.section("time", o.time, "The discretisation in time.");
   v.section("solver", o.solver, "Newton's method and the linear solver of a time step.");
   v.section("output", o.output, "What is written, and where.");

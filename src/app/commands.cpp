@@ -6,6 +6,7 @@
 #include "app/mesh_file.h"
 #include "app/session.h"
 #include "app/simulation.h"
+#include "app/trim.h"
 #include "app/verify.h"
 #include "base/errors.h"
 #include "base/interrupt.h"
@@ -46,6 +47,15 @@ int check_command(const Arguments& a) {
   require_mesh(c);
   const Session session(a.petsc);
   return guarded([&] { return check_simulation(c); });
+}
+
+int trim_command(const Arguments& a) {
+  const Case c = load_case(a.path, a.overrides);
+  validate_trim(c);
+  require_mesh(c);
+  const Session session(a.petsc);
+  catch_interrupts();
+  return guarded([&] { return run_trim(c, a.run.out); });
 }
 
 int verify_command(const Arguments& a) {
@@ -92,6 +102,11 @@ int run_command(int argc, char** argv) {
   add_case(*check_app, a);
   add_petsc(*check_app, a);
 
+  auto* trim_app = app.add_subcommand("trim", "find where the mean forces on a vehicle vanish, to start a run from there");
+  add_case(*trim_app, a);
+  add_petsc(*trim_app, a);
+  trim_app->add_option("--out", a.run.out, "folder of the results");
+
   auto* verify_app = app.add_subcommand("verify", "run a case's checks, compare each figure with the expected one");
   verify_app->add_option("CASEDIR", a.path, "folder with verify.toml")->required();
   verify_app->add_flag("--quick", a.quick, "only the runs marked quick");
@@ -108,6 +123,7 @@ int run_command(int argc, char** argv) {
     if (*mesh_app) return mesh_command(a);
     if (*run_app) return run_command(a);
     if (*check_app) return check_command(a);
+    if (*trim_app) return trim_command(a);
     if (*verify_app) return verify_command(a);
     return keys_command();
   });

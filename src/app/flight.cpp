@@ -88,29 +88,52 @@ fluid::FrameFunction Flight::frame_function(const coupling::Trajectory& motion) 
   };
 }
 
-VectorXd Flight::loads(Vec q, const VehicleState& vehicle) {
+void Flight::start_from(std::span<const double> state) {
+  step_.restore(state);
+  VehicleState vehicle = step_.state().vehicle;
+  vehicle.t = 0;
+  vehicle.sampled.next_sample = 0;
+  step_.start(vehicle);
+}
+
+bool Flight::has_walls(int rotor) const {
+  const auto& patches = solver_.euler().mesh().patches;
+  for (size_t p = 0; p < patches.size(); ++p)
+    if (is_wall_[p] && zone_rotor_[patches[p].zone] == rotor) return true;
+  return false;
+}
+
+coupling::MeanLoads Flight::air(Vec q, const VehicleState& vehicle) {
   const fluid::Frames frames = this->frames(vehicle);
   const auto fluxes = solver_.euler().patch_fluxes(q, frames);
   const body::Kinematics k = window_.kinematics(vehicle);
   const auto& patches = solver_.euler().mesh().patches;
   const auto& rotors = window_.vehicle().vehicle().rotors;
   VectorXd loads = VectorXd::Zero(window_.interface_size());
+  coupling::MatrixXd wrenches = coupling::MatrixXd::Zero(6, window_.vehicle().rotors());
   for (size_t p = 0; p < patches.size(); ++p) {
     if (!is_wall_[p]) continue;
     const Vec3 force = scales_.force() * fluxes[p].force, moment = scales_.moment() * fluxes[p].moment;
+    const Vec3 torque = moment - k.p_WoG_W.cross(force);
     loads.segment<3>(LoadLayout::force) += force;
-    loads.segment<3>(LoadLayout::torque) += moment - k.p_WoG_W.cross(force);
+    loads.segment<3>(LoadLayout::torque) += torque;
     const int j = zone_rotor_[patches[p].zone];
     if (j < 0) continue;
+    wrenches.col(j).head<3>() += force;
+    wrenches.col(j).tail<3>() += torque;
     const Vec3 hub = scales_.length * frames[patches[p].zone].position(zones_.spin_point(patches[p].zone));
     loads[LoadLayout::rotor + j] += (k.R_WB * rotors[j].spin_axis_B).dot(moment - hub.cross(force));
   }
   // sums of parallel runs are the same on all ranks by custom only: decisions hang on them
-  MPI_Bcast(loads.data(), static_cast<int>(loads.size()), MPI_DOUBLE, 0, solver_.euler().mesh().comm);
-  return loads;
+  const MPI_Comm comm = solver_.euler().mesh().comm;
+  MPI_Bcast(loads.data(), static_cast<int>(loads.size()), MPI_DOUBLE, 0, comm);
+  MPI_Bcast(wrenches.data(), static_cast<int>(wrenches.size()), MPI_DOUBLE, 0, comm);
+  coupling::MeanLoads air{loads, {}};
+  for (const auto& wrench : wrenches.colwise()) air.rotor_wrench.push_back(wrench);
+  return air;
 }
 
-VectorXd Flight::loads(const VehicleState& vehicle) { return loads(solver_.state().q, vehicle); }
+VectorXd Flight::loads(const VehicleState& vehicle) { return air(solver_.state().q, vehicle).loads; }
 
 void Flight::begin(const coupling::Trajectory& motion, double) { solver_.begin(frame_function(motion), dt_); }
 
@@ -118,7 +141,7 @@ coupling::FluidSide::Answer Flight::iterate(const coupling::Trajectory& motion, 
   // one iteration at least where the coupling iterates: the error of a flow that is left alone would hide the loads' answer
   report_ = solver_.iterate(frame_function(motion), newton > 0 ? newton : case_.solver.newton_iterations, newton > 0);
   Answer answer{.converged = report_.accepted, .failed = report_.failed, .reason = report_.reason, .loads = {}};
-  if (!answer.failed) answer.loads = loads(solver_.iterate(), motion(1));
+  if (!answer.failed) answer.loads = air(solver_.iterate(), motion(1)).loads;
   return answer;
 }
 

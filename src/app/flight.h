@@ -1,36 +1,43 @@
 // A run whose body moves under the air's loads: the flow solver and the vehicle, step by step together.
 #pragma once
+#include "app/mover.h"
 #include "app/vehicle.h"
-#include "app/zone_tree.h"
 #include "coupling/coupled_step.h"
-#include "fluid/flow_solver.h"
+#include "coupling/equilibrium.h"
 #include "io/csv.h"
 
 namespace windhover::app {
 
-class Flight : private coupling::FluidSide {
+class Flight : public Mover, private coupling::FluidSide {
  public:
   Flight(const Case& c, fluid::FlowSolver& solver, const ZoneTree& zones);
 
-  /// Frames at the current state, nondimensional.
-  mesh::FrameState body() const { return body(step_.state().vehicle); }
-  fluid::Frames frames() const { return frames(step_.state().vehicle); }
+  mesh::FrameState body() const override { return body(step_.state().vehicle); }
+  fluid::Frames frames() const override { return frames(step_.state().vehicle); }
+  /// The same for a vehicle that is elsewhere.
+  mesh::FrameState body(const coupling::VehicleState& vehicle) const;
+  fluid::Frames frames(const coupling::VehicleState& vehicle) const;
 
-  /// The loads of the initial flow; once it is set. Collective, as all that follows.
-  void start() { step_.start(); }
+  /// From the vehicle's start, or from there, with the loads of the initial flow; once it is set. Collective, as all that
+  /// follows.
+  void start() { start(window_.start()); }
+  void start(const coupling::VehicleState& vehicle) { step_.start(vehicle); }
+  /// From the vehicle of another run's checkpoint, at t = 0.
+  void start_from(std::span<const double> state);
   /// Opens coupling.csv; `last_step`: continue it from there.
   void open(const std::filesystem::path& directory, std::optional<std::int64_t> last_step);
 
-  struct Result {
-    fluid::StepReport flow;  ///< `accepted` is that of flow and vehicle together
-    int iterations = 0;      ///< of the coupling
-  };
-  /// One step of this size (nondimensional), or none: then nothing has changed, and the reason is told.
-  Result advance(double dt);
+  Result advance(double dt) override;
 
-  /// All that a restart needs besides the flow.
-  std::vector<double> state() const { return step_.pack(); }
+  std::vector<double> state() override { return step_.pack(); }
   void restore(std::span<const double> state) { step_.restore(state); }
+
+  const coupling::Window& window() const { return window_; }
+  const coupling::VehicleState& vehicle() const { return step_.state().vehicle; }
+  /// Loads of a flow on the vehicle, and those on the walls that turn with each of its rotors.
+  coupling::MeanLoads air(Vec q, const coupling::VehicleState& vehicle);
+  /// Some walls turn with the rotor.
+  bool has_walls(int rotor) const;
 
  private:
   coupling::VectorXd loads(const coupling::VehicleState& vehicle) override;
@@ -39,10 +46,7 @@ class Flight : private coupling::FluidSide {
   void accept() override { solver_.accept(); }
   int order() const override { return solver_.order(); }
 
-  mesh::FrameState body(const coupling::VehicleState& vehicle) const;
-  fluid::Frames frames(const coupling::VehicleState& vehicle) const;
   fluid::FrameFunction frame_function(const coupling::Trajectory& motion) const;
-  coupling::VectorXd loads(Vec q, const coupling::VehicleState& vehicle);
 
   const Case& case_;
   Scales scales_;

@@ -1,5 +1,7 @@
 // The time loop: from a validated case to results.
 #pragma once
+#include <mpi.h>
+
 #include <optional>
 #include <string>
 
@@ -15,6 +17,9 @@ struct RunOptions {
 
 /// Runs the case. Returns the exit code: 0, or 128 + signal when interrupted. Collective over PETSC_COMM_WORLD.
 int run_simulation(const Case& c, const RunOptions& options);
+
+/// The signal any rank has received, or 0. Collective.
+int agreed_signal(MPI_Comm comm);
 
 /// Everything but the steps: mesh, zones, memory and time estimate. Returns the exit code.
 int check_simulation(const Case& c);

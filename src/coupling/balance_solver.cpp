@@ -16,6 +16,8 @@ namespace {
 
 /// Change of a scaled unknown for a difference.
 constexpr double kDifference = 0.1;
+/// Changes of F that tell of the Jacobian are this many times the uncertainty.
+constexpr double kSignificant = 3;
 /// KINSOL calls steps below this no progress; the tolerance on F is what ends the search.
 constexpr double kLeastStep = 1e-8;
 
@@ -37,7 +39,9 @@ class Learner {
       return {};
     }
     ++evaluations;
-    if (J_.size() > 0) correct(u - this->u, *f - this->f);
+    const double uncertainty = problem_.uncertainty() + uncertainty_;
+    if (J_.size() > 0) correct(u - this->u, *f - this->f, uncertainty);
+    uncertainty_ = problem_.uncertainty();
     this->u = u;
     this->f = *f;
     return f;
@@ -69,14 +73,17 @@ class Learner {
   VectorXd u, f;  ///< the latest
 
  private:
-  void correct(const VectorXd& du, const VectorXd& df) {
-    const double square = du.squaredNorm();
-    if (square > 0) J_ += (df - J_ * du) * du.transpose() / square;
+  /// A change, expected or found, that is lost in the uncertainty says nothing of the Jacobian.
+  void correct(const VectorXd& du, const VectorXd& df, double uncertainty) {
+    const VectorXd expected = J_ * du;
+    if (std::max(expected.lpNorm<Eigen::Infinity>(), df.lpNorm<Eigen::Infinity>()) <= kSignificant * uncertainty) return;
+    J_ += (df - expected) * du.transpose() / du.squaredNorm();
   }
 
   BalanceProblem& problem_;
   const BalanceOptions& options_;
   MatrixXd J_;
+  double uncertainty_ = 0;
 };
 
 /// What KINSOL's callbacks share.
@@ -140,7 +147,6 @@ Context make_context() {
 
 std::string reason(int flag, const Learner& learner, const std::string& message) {
   if (learner.exhausted) return fmt::format("no balance after {} tries", learner.evaluations);
-  if (flag == KIN_MXNEWT_5X_EXCEEDED) return "five tries one after the other wanted to go further than allowed";
   return fmt::format("KINSOL: {} ({})", KINGetReturnFlagName(flag), message);
 }
 
@@ -182,7 +188,9 @@ BalanceResult solve_balance(BalanceProblem& problem, const VectorXd& start, cons
   result.converged = first && first->lpNorm<Eigen::Infinity>() <= options.tolerance;
   if (first && !result.converged) {
     std::string message;
-    const int flag = run_kinsol(shared, start, options, message);
+    int flag = KIN_MXNEWT_5X_EXCEEDED;  // five steps as long as allowed: no reason not to go on
+    for (VectorXd from = start; flag == KIN_MXNEWT_5X_EXCEEDED; from = shared.learner.u)
+      flag = run_kinsol(shared, from, options, message);
     shared.guard.rethrow();
     result.converged = flag == KIN_SUCCESS || flag == KIN_INITIAL_GUESS_OK;
     if (!result.converged) result.reason = reason(flag, shared.learner, message);

@@ -16,6 +16,8 @@ class BalanceProblem {
   virtual ~BalanceProblem() = default;
   /// F at u, or nothing: stop.
   virtual std::optional<VectorXd> evaluate(const VectorXd& u) = 0;
+  /// How far the latest F may be from what it would be in the end, in its largest component.
+  virtual double uncertainty() const { return 0; }
   /// A guess of dF/du at the latest u evaluated; a column of zeros is found by a difference instead.
   virtual MatrixXd model_jacobian() = 0;
 };
@@ -34,7 +36,8 @@ struct BalanceResult {
 };
 
 /// Newton's method (KINSOL, steps limited, no line search); after each evaluation the Jacobian is corrected so that it
-/// explains the latest change of F (Broyden, Math. Comp. 19, 1965). Passes on what evaluate() throws.
+/// explains the latest change of F (Broyden, Math. Comp. 19, 1965), unless that is lost in the uncertainty. Passes on what
+/// evaluate() throws.
 BalanceResult solve_balance(BalanceProblem& problem, const VectorXd& start, const BalanceOptions& options);
 
 }  // namespace windhover::coupling

@@ -162,14 +162,15 @@ VectorXd Equilibrium::scaled_unknowns(const Hold& hold) const {
   return u;
 }
 
-VehicleState Equilibrium::state(double t, const Hold& hold, const Vec6& rates, const VectorXd& rotor_angle) const {
+VehicleState Equilibrium::state(double t, const Hold& hold, const Vec6& rates, const VectorXd& rotor_angle,
+                                double moved_s) const {
   const body::VehicleOde& vehicle = window_.vehicle();
   const body::Mount& mount = vehicle.vehicle().mount;
   Vec6 coordinates = hold.coordinates, velocities = rates;
   for (int k = 0; k < 3; ++k) {
     const Freedom& f = mount.freedoms()[k];
     if (!f.is_state()) continue;
-    coordinates[k] += f.initial_rate * t;
+    coordinates[k] += f.initial_rate * moved_s;
     velocities[k] += f.initial_rate;
   }
   VehicleState s = window_.start();

@@ -35,9 +35,11 @@ class Equilibrium {
   /// Unknowns in SI units, in their order.
   VectorXd values(const Hold& hold) const { return scaled_unknowns(hold).cwiseProduct(unknown_scale_); }
 
-  /// The vehicle at time t with these rates and rotor angles; it moves along with the velocity it has at its start.
-  VehicleState state(double t, const Hold& hold, const body::Vec6& rates, const VectorXd& rotor_angle) const;
-  /// The same at rest.
+  /// The vehicle at time t with these rates and rotor angles; where it is free, it has the velocity of its start, with
+  /// which it has moved along for `moved_s`.
+  VehicleState state(double t, const Hold& hold, const body::Vec6& rates, const VectorXd& rotor_angle,
+                     double moved_s = 0) const;
+  /// The same without rates, the rotors at angle 0.
   VehicleState state(double t, const Hold& hold) const;
 
   /// What is left of the forces (N, N m), and the same over their scales.

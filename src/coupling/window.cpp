@@ -60,6 +60,33 @@ control::Measurement Window::measure(double t, std::span<const double> y) const 
   return {k.p_WoG_W, k.v_WG_W, k.R_WB, k.omega_WB_B};
 }
 
+control::Command Window::holding(const VehicleState& s, const Eigen::VectorXd& loads) const {
+  control::Command command;
+  for (int j = 0; j < vehicle_.rotors(); ++j)
+    command.rotor_speed.push_back(std::visit(
+        [&](const auto& motor) { return motor.holding(rotor_speed(s, j), loads[body::LoadLayout::rotor + j]); },
+        vehicle_.vehicle().rotors[j].motor));
+  return command;
+}
+
+VehicleState Window::settled(const VehicleState& s, const Eigen::VectorXd& loads) const {
+  VehicleState settled = s;
+  const std::vector<double> state = controller_->state_for(measure(s.t, s.y), plan_.at(0), holding(s, loads));
+  if (is_sampled())
+    settled.sampled.state = state;
+  else
+    std::copy(state.begin(), state.end(), settled.y.begin() + vehicle_.size());
+  return settled;
+}
+
+Window::Control Window::control(const VehicleState& s) const {
+  const std::span<const double> state =
+      is_sampled() ? std::span(s.sampled.state) : std::span(s.y).subspan(vehicle_.size());
+  Control control{{}, std::vector<double>(state.size())};
+  control.command = controller_->evaluate(measure(s.t, s.y), plan_.at(0), state, control.rate);
+  return control;
+}
+
 body::Ode Window::problem(const control::Setpoint& setpoint, const body::LoadPolynomial& loads,
                           const control::SampledState& sampled) const {
   return {.derivative =

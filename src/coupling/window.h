@@ -49,6 +49,18 @@ class Window {
   /// The first time after s at which the setpoint jumps or the controller takes a sample; infinite when there is none.
   double next_event(const VehicleState& s) const;
 
+  /// The commands that keep the rotors' speeds against the air (loads: LoadLayout), as far as their motors can.
+  control::Command holding(const VehicleState& s, const Eigen::VectorXd& loads) const;
+  /// The same vehicle, its controller in the states with which it gives these commands at the setpoint of t = 0, as far
+  /// as it can.
+  VehicleState settled(const VehicleState& s, const Eigen::VectorXd& loads) const;
+  /// What the controller does with its states at the setpoint of t = 0.
+  struct Control {
+    control::Command command;
+    std::vector<double> rate;  ///< of its states
+  };
+  Control control(const VehicleState& s) const;
+
   /// How far apart two outcomes of one window are, relative to the motion over it: the largest of position, attitude and
   /// rotor angles. Motions below a millionth of `length` (m), or of a radian, count as that much.
   double pose_difference(const VehicleState& start, const VehicleState& a, const VehicleState& b, double length) const;

@@ -1,0 +1,119 @@
+#include "app/run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/flight.h"
+#include "app/flow_fields.h"
+#include "app/flow_setup.h"
+#include "base/collective.h"
+#include "base/errors.h"
+#include "io/file.h"
+#include "io/results.h"
+
+namespace windhover::app {
+
+Run::Run(const Case& c, const std::filesystem::path& directory)
+    : case_(c),
+      directory_(directory),
+      scales_(c.fluid),
+      started_(MPI_Wtime()),
+      zoned_(read_zones(c, PETSC_COMM_WORLD)),
+      mesh_(zoned_.mesh),
+      euler_(mesh_, flow_model(c), std::move(zoned_.interfaces)),
+      solver_(euler_, flow_options(c)),
+      zones_(c, mesh_),
+      checkpoint_(c, mesh_),
+      summary_(c, mesh_) {}
+
+std::vector<double> Run::begin(bool restart) {
+  io::prepare_results(directory_, restart, mesh_.comm);
+  fluid::FlowState& state = solver_.state();
+  if (restart) {
+    Memory memory = checkpoint_.read(directory_, state);
+    from_ = state.step;
+    averages_ = std::move(memory.averages);
+    return memory.vehicle;
+  }
+  if (!case_.time.start_from.empty()) {
+    const Memory memory = checkpoint_.read(case_.time.start_from, state);
+    state.step = 0;
+    state.time = 0;
+    return memory.vehicle;
+  }
+  fluid::set_initial(euler_, initial_frames(case_, zones_), initial_state(case_), state.q);
+  return {};
+}
+
+void Run::open(Mover& mover) {
+  mover_ = &mover;
+  history_.emplace(case_, directory_, mesh_.comm, from_);
+  rotors_.emplace(case_, mesh_, directory_, from_);
+  if (from_) rotors_->restore(averages_);
+  fields_.emplace(directory_, mesh_.comm, from_);
+  on_root(mesh_.comm, [this] { io::write_atomically(directory_ / "case.toml", effective_case(case_)); });
+  summary_.start(solver_, MPI_Wtime() - started_);
+  if (from_) return;
+  append_history({});
+  write_fields();
+}
+
+/// The row of the current state, and what else is written once a step.
+Loads Run::append_history(StepRecord record) {
+  const fluid::Frames now = mover_->frames();
+  const auto fluxes = euler_.patch_fluxes(solver_.state().q, now);
+  record.rotors = rotors_->step(solver_, fluxes, now);
+  return history_->append(solver_, mover_->body(), fluxes, record);
+}
+
+void Run::step(double dt_s, double end_s) {
+  const fluid::FlowState& state = solver_.state();
+  const double nominal = dt_s / scales_.time(), end = end_s / scales_.time(), begin = MPI_Wtime();
+  // after a reduced step the next ones grow back; depends on the state alone, so a restart does the same
+  double dt = state.last_step > 0 ? std::min(nominal, 2 * state.last_step) : case_.time.first_step_ratio * nominal;
+  if (dt > 0.999 * nominal) dt = nominal;
+  if (end - state.time < dt * (1 - 1e-9)) dt = end - state.time;
+  const double smallest = case_.time.first_step_ratio * nominal * std::pow(0.5, case_.solver.max_halvings);
+  for (;; dt /= 2) {
+    last_ = mover_->advance(dt);
+    if (last_.flow.accepted) break;
+    summary_.rejected();
+    if (dt / 2 < smallest) give_up(dt);
+  }
+  const double solved = MPI_Wtime();
+  saved_ = false;
+  const Loads loads = append_history({last_.flow, solved - begin, {}, last_.iterations});
+  summary_.step(last_.flow, state, loads, solved - begin);
+  if (case_.output.fields_interval > 0 && state.step % case_.output.fields_interval == 0) write_fields();
+  if (state.step % case_.output.checkpoint_interval == 0) write_checkpoint();
+  summary_.output(MPI_Wtime() - solved);
+}
+
+void Run::give_up(double dt) {
+  const fluid::FlowState& state = solver_.state();
+  if (!saved_) write_checkpoint();
+  throw SolverFailure("step {} after {:.6g} s failed, the last try with {:.3g} s: {}; the last accepted state is in {}",
+                      state.step + 1, state.time * scales_.time(), dt * scales_.time(), last_.flow.reason,
+                      (directory_ / "checkpoint").string());
+}
+
+void Run::write_checkpoint() {
+  checkpoint_.write(directory_, solver_.state(), mover_->frames(),
+                    {rotors_->state(), mover_->state()});
+  saved_ = true;
+}
+
+void Run::write_fields() {
+  if (fields_step_ == solver_.state().step) return;
+  fields_step_ = solver_.state().step;
+  rotors_->write();
+  fields_->write(fields_step_, time_s(), flow_fields(case_, solver_, mover_->frames()));
+}
+
+void Run::finish(bool fields) {
+  if (!saved_) write_checkpoint();
+  if (fields) write_fields();
+  summary_.write(directory_, solver_, rotors_->summary(), MPI_Wtime() - started_);
+}
+
+}  // namespace windhover::app
