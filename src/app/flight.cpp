@@ -30,6 +30,8 @@ std::vector<ZoneTree::Spin> spins(const Case& c, const coupling::Window& window,
 /// Forces on this much of the reference pressure are round-off.
 constexpr double kForceRoundOff = 1e-9;
 
+constexpr double kSameTime = 1e-12;  // times this close, relative to themselves, are one
+
 }  // namespace
 
 Flight::Flight(const Case& c, fluid::FlowSolver& solver, const ZoneTree& zones)
@@ -65,10 +67,17 @@ Flight::Result Flight::advance(double dt) {
     table_->append(std::vector<double>{step, double(i + 1), it.load_residual, it.pose_residual, it.relaxation,
                                        double(it.accepted)});
   }
-  Result r{report_, static_cast<int>(result.iterations.size())};
+  Result r{report_, static_cast<int>(result.iterations.size()), result.error};
   r.flow.accepted = result.accepted;
   if (!result.accepted) r.flow.reason = result.reason;
   return r;
+}
+
+double Flight::next_event() const {
+  if (case_.coupling.step_tolerance == 0) return Mover::next_event();
+  double event = window_.next_event(vehicle());
+  if (case_.output.average_from_s > vehicle().t * (1 + kSameTime)) event = std::min(event, case_.output.average_from_s);
+  return event / scales_.time();
 }
 
 mesh::FrameState Flight::body(const VehicleState& vehicle) const {

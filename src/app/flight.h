@@ -28,6 +28,7 @@ class Flight : public Mover, private coupling::FluidSide {
   void open(const std::filesystem::path& directory, std::optional<std::int64_t> last_step);
 
   Result advance(double dt) override;
+  double next_event() const override;
 
   std::vector<double> state() override { return step_.pack(); }
   void restore(std::span<const double> state) { step_.restore(state); }

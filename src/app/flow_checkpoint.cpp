@@ -64,6 +64,7 @@ void FlowCheckpoint::write(const std::filesystem::path& directory, const fluid::
   };
   remember("averages", memory.averages);
   remember("vehicle", memory.vehicle);
+  remember("step_control", memory.step);
   out.finish();
 }
 
@@ -85,7 +86,7 @@ Memory FlowCheckpoint::read(const std::filesystem::path& directory, fluid::FlowS
   const auto recall = [&](const char* name) {
     return in.has_array(name) ? in.array(name, 1, 0, in.rows(name)) : std::vector<double>();
   };
-  return {recall("averages"), recall("vehicle")};
+  return {recall("averages"), recall("vehicle"), recall("step_control")};
 }
 
 }  // namespace windhover::app

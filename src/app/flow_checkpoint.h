@@ -12,6 +12,7 @@ namespace windhover::app {
 struct Memory {
   std::vector<double> averages;  ///< of the rotors
   std::vector<double> vehicle;   ///< body, motors, controller and coupling
+  std::vector<double> step;      ///< control of the step size
 };
 
 /// Cells are stored in the mesh file's order, so a run may continue on any number of ranks.

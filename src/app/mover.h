@@ -17,11 +17,15 @@ class Mover {
   virtual mesh::FrameState body() const = 0;
 
   struct Result {
-    fluid::StepReport flow;  ///< `accepted` is that of flow and vehicle together
-    int iterations = 0;      ///< of the coupling
+    fluid::StepReport flow;            ///< `accepted` is that of flow and vehicle together
+    int iterations = 0;                ///< of the coupling
+    std::optional<double> error = {};  ///< of the step's size, where it is known
   };
   /// One step of this size (nondimensional), or none: then nothing has changed, and the reason is told. Collective.
   virtual Result advance(double dt) = 0;
+
+  /// The time (nondimensional) that no step may cross; infinite when there is none.
+  virtual double next_event() const { return std::numeric_limits<double>::infinity(); }
 
   /// All that a restart needs besides the flow, the same on every rank. Collective.
   virtual std::vector<double> state() { return {}; }

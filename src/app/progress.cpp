@@ -20,8 +20,9 @@ std::string clock_text(double seconds) {
 
 std::string progress_line(const StepReport& report, double fraction, double elapsed_s) {
   const std::string left = fraction > 0 ? clock_text(elapsed_s * (1 - fraction) / fraction) : "?";
-  return fmt::format("step {:>6}  t {:<11.6g} s  {:>5.1f} %  left {}  newton {}  krylov {}", report.step, report.time_s,
-                     100 * fraction, left, report.newton, report.krylov);
+  const std::string coupling = report.coupling > 0 ? fmt::format("  coupling {}", report.coupling) : "";
+  return fmt::format("step {:>6}  t {:<11.6g} s  {:>5.1f} %  left {}  newton {}  krylov {}{}", report.step,
+                     report.time_s, 100 * fraction, left, report.newton, report.krylov, coupling);
 }
 
 Progress::Progress(double begin_s, double end_s, MPI_Comm comm, std::FILE* out)

@@ -12,6 +12,7 @@ struct StepReport {
   int step = 0;
   double time_s = 0;
   int newton = 0, krylov = 0;  ///< iterations of this step
+  int coupling = 0;            ///< 0: there is no coupling
 };
 
 /// `fraction` of the run is done after `elapsed_s`.

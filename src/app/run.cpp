@@ -24,7 +24,8 @@ Run::Run(const Case& c, const std::filesystem::path& directory)
       solver_(euler_, flow_options(c)),
       zones_(c, mesh_),
       checkpoint_(c, mesh_),
-      summary_(c, mesh_) {}
+      summary_(c, mesh_),
+      control_(is_dynamic(c) ? c.coupling.step_tolerance : 0) {}
 
 std::vector<double> Run::begin(bool restart) {
   io::prepare_results(directory_, restart, mesh_.comm);
@@ -33,6 +34,7 @@ std::vector<double> Run::begin(bool restart) {
     Memory memory = checkpoint_.read(directory_, state);
     from_ = state.step;
     averages_ = std::move(memory.averages);
+    if (!memory.step.empty()) control_.restore(memory.step);
     return memory.vehicle;
   }
   if (!case_.time.start_from.empty()) {
@@ -69,21 +71,20 @@ Loads Run::append_history(StepRecord record) {
 void Run::step(double dt_s, double end_s) {
   const fluid::FlowState& state = solver_.state();
   const double nominal = dt_s / scales_.time(), end = end_s / scales_.time(), begin = MPI_Wtime();
-  // after a reduced step the next ones grow back; depends on the state alone, so a restart does the same
-  double dt = state.last_step > 0 ? std::min(nominal, 2 * state.last_step) : case_.time.first_step_ratio * nominal;
-  if (dt > 0.999 * nominal) dt = nominal;
-  if (end - state.time < dt * (1 - 1e-9)) dt = end - state.time;
-  const double smallest = case_.time.first_step_ratio * nominal * std::pow(0.5, case_.solver.max_halvings);
-  for (;; dt /= 2) {
-    last_ = mover_->advance(dt);
-    if (last_.flow.accepted) break;
+  const double first_ratio = case_.time.first_step_ratio, event = std::min(end, mover_->next_event());
+  double dt = control_.propose(nominal, first_ratio, state.time, event);
+  const double smallest = first_ratio * nominal * std::pow(0.5, case_.solver.max_halvings);
+  while (!(last_ = mover_->advance(dt)).flow.accepted) {
     summary_.rejected();
-    if (dt / 2 < smallest) give_up(dt);
+    const double smaller = control_.refused(dt, last_.error);
+    if (smaller < smallest) give_up(dt);
+    dt = smaller;
   }
+  control_.accepted(dt, last_.error, nominal);
   const double solved = MPI_Wtime();
   saved_ = false;
   const Loads loads = append_history({last_.flow, solved - begin, {}, last_.iterations});
-  summary_.step(last_.flow, state, loads, solved - begin);
+  summary_.step(last_.flow, last_.iterations, state, loads, solved - begin);
   if (case_.output.fields_interval > 0 && state.step % case_.output.fields_interval == 0) write_fields();
   if (state.step % case_.output.checkpoint_interval == 0) write_checkpoint();
   summary_.output(MPI_Wtime() - solved);
@@ -99,7 +100,7 @@ void Run::give_up(double dt) {
 
 void Run::write_checkpoint() {
   checkpoint_.write(directory_, solver_.state(), mover_->frames(),
-                    {rotors_->state(), mover_->state()});
+                    {rotors_->state(), mover_->state(), control_.state()});
   saved_ = true;
 }
 

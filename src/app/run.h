@@ -7,6 +7,7 @@
 #include "app/mover.h"
 #include "app/rotor_output.h"
 #include "app/summary.h"
+#include "coupling/step_control.h"
 #include "io/fields.h"
 
 namespace windhover::app {
@@ -30,11 +31,12 @@ class Run {
   /// The step to continue tables from after a restart.
   std::optional<std::int64_t> from() const { return from_; }
 
-  /// One accepted step: of dt (s), or as much less as Newton's method needs, and never past
+  /// One accepted step: of dt (s), or as much less as Newton's method and coupling.step_tolerance need, and never past
   /// `end` (s) or an event. SolverFailure, with the last accepted state saved, when it cannot.
   void step(double dt_s, double end_s);
   /// What the latest step took.
   const fluid::StepReport& report() const { return last_.flow; }
+  int coupling_iterations() const { return last_.iterations; }
 
   void write_checkpoint();
   /// The end: a checkpoint, unless there is one of this step, summary.json, and with `fields` the fields.
@@ -62,6 +64,7 @@ class Run {
   std::optional<History> history_;
   std::optional<RotorOutput> rotors_;
   std::optional<io::FieldWriter> fields_;
+  coupling::StepControl control_;
   Mover::Result last_;
   bool saved_ = false;
   long fields_step_ = -1;

@@ -49,7 +49,8 @@ int run_simulation(const Case& c, const RunOptions& options) {
     Progress progress(run.time_s(), by_steps ? last_step * dt : end, run.comm());
     while (!finished() && !(signal = agreed_signal(run.comm()))) {
       run.step(dt, end);
-      progress.report({static_cast<int>(state.step), run.time_s(), run.report().newton(), run.report().krylov()});
+      progress.report({static_cast<int>(state.step), run.time_s(), run.report().newton(), run.report().krylov(),
+                       run.coupling_iterations()});
     }
   }
   run.finish(!signal);

@@ -28,10 +28,12 @@ void Summary::start(const fluid::FlowSolver& solver, double setup_s) {
   setup_s_ = setup_s;
 }
 
-void Summary::step(const fluid::StepReport& report, const fluid::FlowState& state, const Loads& loads, double seconds) {
+void Summary::step(const fluid::StepReport& report, int coupling, const fluid::FlowState& state, const Loads& loads,
+                   double seconds) {
   solve_s_ += seconds;
   newton_ += report.newton();
   krylov_ += report.krylov();
+  coupling_ += coupling;
   if (state.time * Scales(case_.fluid).time() < case_.output.average_from_s) return;
   ++averaged_;
   sum_.force_N += loads.force_N;
@@ -58,6 +60,7 @@ void Summary::write(const std::filesystem::path& directory, const fluid::FlowSol
   j["seconds_per_step"] = solve_s_ * per_step;
   j["newton_per_step"] = double(newton_) * per_step;
   j["krylov_per_step"] = double(krylov_) * per_step;
+  if (coupling_ > 0) j["coupling_iterations_per_step"] = double(coupling_) * per_step;
   j["averages"] = {{"from_s", case_.output.average_from_s},
                    {"steps", averaged_},
                    {"force_N", list(per_average * sum_.force_N)},

@@ -29,7 +29,7 @@ void for_each_block(Eigen::Index size, F f) {
 class CoupledStep::Problem : public FixedPoint {
  public:
   Problem(CoupledStep& step, double end) : step_(step), start_(step.state_.vehicle), end_(end), scale_(least_scale()) {
-    for (const auto& point : step.state_.loads) widen_scale(point.loads);
+    for (const auto& point : step.state_.loads) widen(scale_, point.loads);
     known_ = step.state_.loads.back().loads;
     moves_ = step.window_.responding_loads(start_);
   }
@@ -60,7 +60,9 @@ class CoupledStep::Problem : public FixedPoint {
     if (!result_.accepted || step_.fluid_.order() < 2) return;
     auto points = step_.state_.loads;
     points.push_back({end_, answer_.loads});
-    result_.error = load_error(points, scale_, moves_);
+    VectorXd scale = least_scale();  // not of the iterates: the size of a step does not depend on the way to it
+    for (const auto& point : points) widen(scale, point.loads);
+    result_.error = load_error(points, scale, moves_);
     const double tolerance = step_.options_.step_tolerance;
     if (tolerance == 0 || !result_.error || *result_.error <= tolerance) return;
     result_.accepted = result_.iterations.back().accepted = false;
@@ -87,7 +89,7 @@ class CoupledStep::Problem : public FixedPoint {
         step_.fluid_.iterate([&](double part) { return state_at(part, loads); }, iterates ? o.newton_per_iteration : 0);
     if (answer_.failed) return lost(answer_.reason);
     if (!answer_.loads.allFinite()) return lost("the loads are no numbers");
-    widen_scale(answer_.loads);
+    widen(scale_, answer_.loads);
     iteration.load_residual = (answer_.loads - x).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
     if (!iterates) {
       if (!answer_.converged) return lost(answer_.reason);
@@ -139,9 +141,9 @@ class CoupledStep::Problem : public FixedPoint {
     scale.segment<3>(LoadLayout::force).setConstant(force);
     return scale;
   }
-  void widen_scale(const VectorXd& loads) {
+  static void widen(VectorXd& scale, const VectorXd& loads) {
     for_each_block(loads.size(), [&](Eigen::Index first, int count) {
-      scale_.segment(first, count) = scale_.segment(first, count).cwiseMax(loads.segment(first, count).norm());
+      scale.segment(first, count) = scale.segment(first, count).cwiseMax(loads.segment(first, count).norm());
     });
   }
 

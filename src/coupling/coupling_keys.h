@@ -38,6 +38,12 @@ void declare(V& v, CouplingOptions& o) {
          .min = 0});
   v.key("moment_scale_Nm", o.moment_scale_Nm,
         {.doc = "the same for moments and rotors' torques; 0: that force times fluid.length_m", .min = 0});
+  v.key("step_tolerance", o.step_tolerance,
+        {.doc = "steps are chosen such that loads which are linear in time miss this part of them over a step, at most the "
+                "step of [time] and never across a setpoint, a sample of the controller or output.average_from_s; 0: equal "
+                "steps",
+         .min = 0,
+         .max = 1});
 }
 
 }  // namespace windhover::coupling

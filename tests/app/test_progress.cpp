@@ -22,6 +22,11 @@ TEST_CASE("progress: plain lines where there is no terminal, few of them, the la
   CHECK_THAT(text, Catch::Contains("\nstep    100  t 10          s  100.0 %  left 0:00:00  newton 3  krylov 25\n"));
 }
 
+TEST_CASE("progress: coupling iterations where there are any", "[app]") {
+  CHECK_THAT(app::progress_line({1, 1, 3, 25, 4}, 0.5, 1), Catch::EndsWith("newton 3  krylov 25  coupling 4"));
+  CHECK_THAT(app::progress_line({1, 1, 3, 25}, 0.5, 1), Catch::EndsWith("newton 3  krylov 25"));
+}
+
 TEST_CASE("progress: time left", "[app]") {
   CHECK_THAT(app::progress_line({1, 1, 0, 0}, 0.25, 3600), Catch::Contains("25.0 %  left 3:00:00"));
   CHECK_THAT(app::progress_line({0, 0, 0, 0}, 0, 1), Catch::Contains("left ?"));
