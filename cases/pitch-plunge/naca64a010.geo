@@ -1,6 +1,7 @@
 // NACA 64A010 with a closed trailing edge, chord 1, in a C-mesh of hexahedra one cell thick (0.01): the mesh of
 // ../naca0012 with another section. x forward, y up; leading edge at x = 0.25, trailing edge at x = -0.75.
-// The section is a polynomial in the root of the distance, within 1.3e-4 of the ordinates in NACA Report 903.
+// The section is a polynomial in the root of the distance, within 1.3e-4 of the ordinates in NACA Report 903 with the
+// trailing edge closed; nose radius 0.0089.
 DefineConstant[ n = 1 ];
 far = 100; // distance of the far field
 nose_length = 0.33; // arc from the leading edge to the crest
