@@ -57,10 +57,11 @@ class Trim : public coupling::BalanceProblem {
     return case_.trim.window_revolutions.value_or(1) / turns;
   }
 
-  /// Steps of equal length until `end`; what `each` does after each of them. False: interrupted.
+  /// Steps of equal length, as near to those of a run as may be, until `end`: a window always samples the same angles of
+  /// the rotors. `each` sees the length of each step done. False: interrupted.
   bool advance(double end, const std::function<void(double dt)>& each) {
     const double begin = run_.time_s(), nominal = step_seconds(case_);
-    const double dt = (end - begin) / std::ceil((end - begin) / nominal * (1 - 1e-9));
+    const double dt = (end - begin) / std::max(1.0, std::round((end - begin) / nominal));
     Progress progress(begin, end, run_.comm());
     for (double before = begin; before < end * (1 - 1e-12); before = run_.time_s()) {
       if ((signal_ = agreed_signal(run_.comm()))) return false;
