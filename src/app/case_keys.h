@@ -103,16 +103,18 @@ void declare(V& v, BodyOptions& o) {
   v.key("walls", o.walls, {.doc = "the walls whose loads are summed; when missing, every wall"});
   v.key("moment_point_m", o.moment_point_m, {.doc = "the point of the body that moments are taken about"});
   v.key("kind", o.kind,
-        {.doc = "how the body moves: prescribed by [[body.motion]], or dynamic: under the loads of the air, gravity and its mount",
+        {.doc = "how the body moves: prescribed by [[body.motion]], or dynamic: under the loads of the air, gravity and its mount; "
+                "where prescribed is written out, the keys of dynamic bodies are allowed and unused, and [[rotor]] and [[zone]] turn as they say",
          .choices = {"prescribed", "dynamic"}});
   v.when("kind", o.kind, "prescribed",
          [&] { v.tables("motion", o.motion, "Prescribed motion: elementary motions, the first outermost."); });
-  v.when("kind", o.kind, "dynamic", [&] {
+  const auto dynamic = [&] {
     v.key("center_of_gravity_m", o.center_of_gravity_m, {.doc = "the centre of gravity in the axes of the mesh; without mass_kg it, mass and inertia are those of the parts of "
                 "[airframe] and [[rotor]]"});
     declare(v, o.vehicle);
     v.section("integrator", o.integrator, "CVODE, which integrates body, motors and controller.");
-  });
+  };
+  v.when("kind", o.kind, "dynamic", dynamic, true);  // --set body.kind=prescribed is enough to hold a body that flies
 }
 
 template <class V>

@@ -7,7 +7,8 @@
 //   }
 //
 // What a visitor offers: key (a value), section (a table with its own struct), tables (an array of tables) and
-// when (keys that exist only for one value of another key).
+// when (keys that exist only for one value of another key, or that are also allowed, unused, where that key is written
+// out with another value).
 #pragma once
 #include <limits>
 #include <string>

@@ -39,7 +39,8 @@ class OptionsDocumenter {
   }
 
   template <class Body>
-  void when(const std::string& name, const std::string&, const std::string& wanted, Body&& body) {
+  void when(const std::string& name, const std::string&, const std::string& wanted, Body&& body,
+            bool = false) {
     condition_ = "for " + name + " \"" + wanted + "\": ";
     body();
     condition_.clear();

@@ -63,9 +63,10 @@ class OptionsReader {
   }
 
   template <class Body>
-  void when(const std::string& name, const std::string& value, const std::string& wanted, Body&& body) {
+  void when(const std::string& name, const std::string& value, const std::string& wanted, Body&& body,
+            bool may_be_unused = false) {
     condition_ = fmt::format(" for {} = \"{}\"", name, value);
-    if (value == wanted) body();
+    if (value == wanted || (may_be_unused && table_.contains(name))) body();
   }
 
   /// UserError for the first key that was not declared; call after declare().

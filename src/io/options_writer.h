@@ -46,7 +46,8 @@ class OptionsWriter {
   }
 
   template <class Body>
-  void when(const std::string&, const std::string& value, const std::string& wanted, Body&& body) {
+  void when(const std::string&, const std::string& value, const std::string& wanted, Body&& body,
+            bool = false) {
     if (value == wanted) body();
   }
 

@@ -51,6 +51,15 @@ class Coupling(Running):
         self.assertEqual([row["accepted"] for row in rows], ["0"] * 3)  # the step and its halves
         self.assertEqual(len(self.table("lost", "history.csv")), 1)
 
+    def test_a_body_that_flies_is_held_by_one_word(self):
+        self.run_case("held", "body.kind=prescribed", "time.steps=2")
+        rows = self.table("held")
+        self.assertEqual([float(row["x_m"]) for row in rows], [0] * 3)
+        self.assertNotIn("mass_kg", (self.folder / "held/case.toml").read_text().split("[body]")[1].split("[")[0])
+        (self.folder / "no_kind.toml").write_text(CASE.replace('kind = "dynamic"\n', ""))
+        result = self.call("run", "no_kind.toml", "--out", "wrong", code=2)
+        self.assertIn('unknown key for kind = "prescribed"', result.stderr)
+
     def test_what_cannot_be(self):
         for setting, *parts in (
             ("body.mass_kg=0", "body.mass_kg", "> 0"),
@@ -67,7 +76,6 @@ class Coupling(Running):
             ("coupling.acceleration=newton", "coupling.acceleration", "iqn-ils"),
             ("coupling.relaxation=2", "coupling.relaxation", "1"),
             ("body.motion=[{rate_m_s = 1}]", "body.motion: unknown key for kind = \"dynamic\""),
-            ("body.kind=prescribed", "body.", "unknown key for kind = \"prescribed\""),
         ):
             with self.subTest(setting):
                 result = self.run_case("wrong", setting, code=2)
