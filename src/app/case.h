@@ -115,6 +115,7 @@ struct TimeOptions {
   std::optional<int> steps;                             ///< exactly one of steps and end_s
   std::optional<double> end_s;
   int start_steps = 0;
+  double damping = 0.25;
   double first_step_ratio = 1;
   std::string start_from;  ///< results of another run; empty: none
 };

@@ -43,6 +43,7 @@ fluid::FlowOptions flow_options(const Case& c) {
   fluid::FlowOptions o;
   o.scheme = &fluid::time_scheme(c.time.scheme);
   o.start_steps = c.time.start_from.empty() ? c.time.start_steps : 0;
+  o.damping = c.time.damping;
   o.extrapolate = s.extrapolate;
   o.jacobian_lag = s.jacobian_lag;
   o.newton = {.preconditioner = &fluid::preconditioner(s.preconditioner),

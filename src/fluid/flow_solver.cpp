@@ -53,6 +53,13 @@ const TimeScheme& FlowSolver::current_scheme() const {
   return starting || no_history ? backward_euler : *options_.scheme;
 }
 
+/// Weight of BDF2 in the step: 1 for BDF2 itself, `damping` in Crank–Nicolson.
+double FlowSolver::bdf2_weight() const {
+  const TimeScheme& scheme = current_scheme();
+  if (scheme.bdf2) return 1;
+  return scheme.damped && state_.last_step > 0 ? options_.damping : 0;
+}
+
 /// Norm of V (q_n − q_{n−1}) / Δt: how fast the flow changes, what Newton's residual is compared with.
 double FlowSolver::rate_norm() const {
   if (state_.last_step == 0) return 0;
@@ -85,7 +92,8 @@ bool FlowSolver::is_physical(Vec q) const {
 /// out = q_n + fraction Δt (q_n − q_{n−1}) / Δt_{n−1}, or q_n where that would not be a gas.
 void FlowSolver::predict(double fraction, double dt, Vec out) const {
   petsc(VecCopy(state_.q, out));
-  if (!options_.extrapolate || state_.last_step == 0) return;
+  const bool starting = state_.step < options_.start_steps;  // an impulsive start does not go on as it began
+  if (!options_.extrapolate || state_.last_step == 0 || starting) return;
   const double r = fraction * dt / state_.last_step;
   petsc(VecAXPBY(out, -r, 1.0 + r, state_.previous));
   if (!is_physical(out)) petsc(VecCopy(state_.q, out));
@@ -109,19 +117,15 @@ bool FlowSolver::solve_stage(const TimeScheme& scheme, int i, const FrameFunctio
                              int min_newton) {
   const VecHandle& stage = stages_[stages_.size() - scheme.stages + i];
   StageEquation equation;
-  equation.combination = {1.0 / dt_, scheme.a[i][i], known_};
   equation.frames = frames(state_.time + scheme.c[i] * dt_);
+  const double w = bdf2_weight();
+  const Bdf2Coefficients h = w > 0 ? bdf2_coefficients(dt_ / state_.last_step) : Bdf2Coefficients{1, 0, 1};
+  equation.combination = {(1 - w + w / h.a) / dt_, (1 - w) * scheme.a[i][i] + w, known_};
   petsc(VecSet(known_, 0.0));
-  if (scheme.bdf2) {
-    const Bdf2Coefficients h = bdf2_coefficients(dt_ / state_.last_step);
-    equation.combination.rate = h.a;
-    add_times_volume(euler_.mesh(), -h.h0 / dt_, state_.q, known_);
-    add_times_volume(euler_.mesh(), -h.h1 / dt_, state_.previous, known_);
-  } else {
-    add_times_volume(euler_.mesh(), -1.0 / dt_, state_.q, known_);
-  }
+  add_times_volume(euler_.mesh(), -(1 - w + w * h.h0 / h.a) / dt_, state_.q, known_);
+  if (w > 0) add_times_volume(euler_.mesh(), -w * h.h1 / h.a / dt_, state_.previous, known_);
   for (int j = 0; j < i; ++j)
-    if (scheme.a[i][j] != 0) petsc(VecAXPY(known_, scheme.a[i][j], rates_[j]));
+    if (scheme.a[i][j] != 0) petsc(VecAXPY(known_, (1 - w) * scheme.a[i][j], rates_[j]));
   report_.stages.push_back(newton_->solve(equation, stage, reference_[i], max_newton, min_newton));
   const NewtonReport& newton = report_.stages.back();
   reference_[i] = std::max(reference_[i], newton.iterations.front().residual);

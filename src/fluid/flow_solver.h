@@ -19,6 +19,7 @@ struct FlowState {
 struct FlowOptions {
   const TimeScheme* scheme = &kTimeSchemes[0];
   int start_steps = 0;      ///< backward-Euler steps first: Crank–Nicolson does not damp an impulsive start
+  double damping = 0;       ///< w of (1 − w) Crank–Nicolson + w BDF2, see bdf2_coefficients
   bool extrapolate = true;  ///< first guess by linear extrapolation in time
   int jacobian_lag = 1;     ///< steps between rebuilds of the preconditioner
   NewtonOptions newton;
@@ -61,6 +62,7 @@ class FlowSolver {
 
  private:
   const TimeScheme& current_scheme() const;
+  double bdf2_weight() const;
   bool solve_stage(const TimeScheme& scheme, int i, const FrameFunction& frames, int max_newton, int min_newton);
   void iterate_explicit(const TimeScheme& scheme, const FrameFunction& frames);
   void explicit_state(const double* coefficients, int stages, double dt, Vec out);

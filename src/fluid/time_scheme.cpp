@@ -8,11 +8,11 @@ constexpr double kGamma = 0.29289321881345247560;  // 1 − 1/√2
 }
 
 const TimeScheme kTimeSchemes[5] = {
-    {"crank_nicolson", 2, 2, true, false, {{0, 0}, {0.5, 0.5}}, {}, {0, 1}},
-    {"backward_euler", 1, 1, true, false, {{1}}, {}, {1}},
-    {"bdf2", 2, 1, true, true, {{1}}, {}, {1}},
-    {"sdirk2", 2, 2, true, false, {{kGamma, 0}, {1 - kGamma, kGamma}}, {}, {kGamma, 1}},
-    {"ssp_rk3", 3, 3, false, false, {{0, 0, 0}, {1, 0, 0}, {0.25, 0.25, 0}}, {1.0 / 6, 1.0 / 6, 2.0 / 3}, {0, 1, 0.5}},
+    {"crank_nicolson", 2, 2, true, false, true, {{0, 0}, {0.5, 0.5}}, {}, {0, 1}},
+    {"backward_euler", 1, 1, true, false, false, {{1}}, {}, {1}},
+    {"bdf2", 2, 1, true, true, false, {{1}}, {}, {1}},
+    {"sdirk2", 2, 2, true, false, false, {{kGamma, 0}, {1 - kGamma, kGamma}}, {}, {kGamma, 1}},
+    {"ssp_rk3", 3, 3, false, false, false, {{0, 0, 0}, {1, 0, 0}, {0.25, 0.25, 0}}, {1.0 / 6, 1.0 / 6, 2.0 / 3}, {0, 1, 0.5}},
 };
 
 const TimeScheme& time_scheme(const std::string& name) {

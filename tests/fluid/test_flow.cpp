@@ -8,8 +8,9 @@ using namespace windhover::fluid;
 
 namespace {
 
-FlowOptions tight(const std::string& scheme) {
+FlowOptions tight(const std::string& scheme, double damping = 0) {
   FlowOptions options;
+  options.damping = damping;
   options.scheme = &time_scheme(scheme);
   options.newton.tolerance = 1e-13;
   options.newton.max_iterations = 30;
@@ -37,12 +38,13 @@ std::array<double, 5> totals(const EulerOperator& euler, Vec q) {
 
 TEST_CASE("uniform flow through a tumbling, translating mixed mesh stays uniform", "[flow][uniform]") {
   const std::string scheme = GENERATE("crank_nicolson", "backward_euler", "bdf2", "sdirk2", "ssp_rk3");
-  CAPTURE(scheme);
+  const double damping = scheme == "crank_nicolson" ? GENERATE(0.0, 0.25) : 0;
+  CAPTURE(scheme, damping);
   const mesh::Mesh mesh = mesh::read_mesh(make_mesh("mixed", {{"distortion", 0.2}}), 1.0, PETSC_COMM_WORLD);
   FlowModel model = model_for(mesh);
   model.far = {1.0, 0.3, -0.2, 0.1, 1 / 1.4};
   EulerOperator euler(mesh, model);
-  FlowSolver solver(euler, tight(scheme));
+  FlowSolver solver(euler, tight(scheme, damping));
   const FrameFunction frames = frames_of(mesh, tumbling());
   set_initial(euler, frames(0), uniform_state(model.far), solver.state().q);
   VecHandle start = euler.make_vector();
@@ -91,6 +93,28 @@ TEST_CASE("a closed box conserves mass, momentum with the walls' force, and ener
     CAPTURE(k, before[k], after[k], through[k]);
     CHECK(std::abs(after[k] - before[k] + through[k]) < 1e-12 * before[4]);
   }
+}
+
+TEST_CASE("damped Crank-Nicolson is of second order with steps that change, and conserves mass", "[flow]") {
+  const double damping = GENERATE(0.25, 1.0);
+  CAPTURE(damping);
+  const mesh::Mesh mesh = mesh::read_mesh(make_mesh("cube"), 1.0, PETSC_COMM_WORLD);
+  EulerOperator euler(mesh, closed_box(mesh));
+  const FrameFunction frames = frames_of(mesh, {});
+  const auto end_of = [&](int pairs) {
+    FlowSolver solver(euler, tight("crank_nicolson", damping));
+    set_initial(euler, frames(0), vortex_state({0.5, 0.5, 0}, 1, 0.15, {1.0, 0, 0, 0, 1 / 1.4}, 1.4), solver.state().q);
+    const double mass = totals(euler, solver.state().q)[0];
+    for (int i = 0; i < pairs; ++i)
+      for (const double part : {0.4, 0.6}) REQUIRE(solver.advance(frames, part * 0.8 / pairs).accepted);
+    CHECK(std::abs(totals(euler, solver.state().q)[0] - mass) < 1e-12 * mass);
+    return std::move(solver.state().q);
+  };
+  const VecHandle fine = end_of(256);
+  const double error[3] = {distance(end_of(16), fine), distance(end_of(32), fine), distance(end_of(64), fine)};
+  CAPTURE(error[0], error[1], error[2]);
+  CHECK(std::log2(error[0] / error[1]) > 1.9);
+  CHECK(std::log2(error[1] / error[2]) > 1.9);
 }
 
 TEST_CASE("preconditioners, kinds of products and ranks lead to the same flow", "[flow]") {
