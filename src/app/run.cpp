@@ -41,6 +41,7 @@ std::vector<double> Run::begin(bool restart) {
     const Memory memory = checkpoint_.read(case_.time.start_from, state);
     state.step = 0;
     state.time = 0;
+    if (!memory.step.empty()) control_.restore(memory.step);  // no first step: the flow is under way
     return memory.vehicle;
   }
   fluid::set_initial(euler_, initial_frames(case_, zones_), initial_state(case_), state.q);
