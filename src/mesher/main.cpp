@@ -1,4 +1,4 @@
-// windhover-mesher GEOMETRY.toml MESH.msh: `windhover mesh` runs it. A program of its own because gmsh's licence is the GPL.
+// windhover-mesher GEOMETRY.toml MESH.msh FINER (divides all sizes): `windhover mesh` runs it. A program of its own because gmsh's licence is the GPL.
 #include <fmt/format.h>
 #include <gmsh.h>
 #include <sys/personality.h>
@@ -23,14 +23,15 @@ void fix_addresses(char** argv) {
 }
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    fmt::print(stderr, "windhover-mesher GEOMETRY.toml MESH.msh\n");
+  if (argc != 4) {
+    fmt::print(stderr, "windhover-mesher GEOMETRY.toml MESH.msh FINER\n");
     return 2;
   }
   fix_addresses(argv);
   try {
     windhover::geometry::GeometryOptions geometry;
     windhover::io::read_options(windhover::io::read_toml(argv[1]), geometry);
+    geometry.refine *= std::stod(argv[3]);
     const auto folder = std::filesystem::path(argv[1]).parent_path();
     complete(geometry.airframe, folder);
     for (auto& rotor : geometry.rotor) complete(rotor, folder);
