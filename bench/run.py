@@ -39,7 +39,7 @@ def sliding(program, build):
         case = [ROOT / "cases/slow-flyer-static/case.toml"]
         mesh = (build / f"bench/meshes/rotor_{refine}.msh").resolve()
         # gmsh's mesh depends on the folder, and now and then has a flatter cell than a case would accept
-        keys = [f"mesh.refine={refine}", f"mesh.file={mesh}", "mesh.min_dihedral_deg=0"]
+        keys = [f"mesh.refine={refine}", f"mesh.file={mesh}", "mesh.min_dihedral_deg=0", "time.step_deg=2"]
         mesh.parent.mkdir(parents=True, exist_ok=True)
         sets = [word for key in keys for word in ("--set", key)]
         subprocess.run([build / "windhover", "mesh", *case, *sets], check=True, stdout=subprocess.DEVNULL)

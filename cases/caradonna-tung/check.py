@@ -57,7 +57,7 @@ def plot_pressure(runs, mach, file):
             rows = rows[(rows["blade"] == 0) & np.isclose(rows["r_over_R"], radius)]
             for side in (1, -1):
                 part = np.sort(rows[rows["side"] == side], order="x_over_c")
-                panel.plot(part["x_over_c"], -part["Cp"], color=color, lw=1, label=f"{name}" if side == 1 else None)
+                panel.plot(part["x_over_c"], -part["Cp"], color=color, lw=1, label=name if side == 1 else None)
         points = measured[np.isclose(measured["r_over_R"], radius)]
         for surface, marker in (("upper", "o"), ("lower", "s")):
             part = points[points["surface"] == surface]

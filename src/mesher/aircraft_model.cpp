@@ -114,7 +114,7 @@ void mesh_aircraft(const GeometryOptions& geometry) {
   gmsh::option::setNumber("Mesh.Algorithm3D", hxt);
   gmsh::option::setNumber("Mesh.MaxNumThreads3D", 1);  // the same mesh every time
   gmsh::model::mesh::generate(3);
-  gmsh::model::mesh::optimize("");  // HXT leaves a cell of 0.2 degrees in some fine meshes; this leaves none below 3
+  gmsh::model::mesh::optimize("");  // HXT leaves cells of 0.2 degrees in some fine meshes
   gmsh::model::mesh::removeSizeCallback();
 }
 

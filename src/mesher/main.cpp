@@ -1,4 +1,5 @@
-// windhover-mesher GEOMETRY.toml MESH.msh FINER (divides all sizes): `windhover mesh` runs it. A program of its own because gmsh's licence is the GPL.
+// windhover-mesher GEOMETRY.toml MESH.msh FINER: `windhover mesh` runs it; FINER divides all sizes. A program of its own
+// because gmsh's licence is the GPL.
 #include <fmt/format.h>
 #include <gmsh.h>
 #include <sys/personality.h>
