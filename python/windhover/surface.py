@@ -21,12 +21,17 @@ def _pieces(block, name=""):
         yield name, block
 
 
-def read_patch(file, patch):
-    """Arrays of one wall patch of a .vtm file by name, with the faces' centres as "center"."""
+def read_blocks(file):
+    """The data sets of a .vtm file, each with the name of its zone or wall: one per block and rank."""
     reader = vtkXMLMultiBlockDataReader()
     reader.SetFileName(str(file))
     reader.Update()
-    parts = [part for name, part in _pieces(reader.GetOutput()) if name == patch]
+    return list(_pieces(reader.GetOutput()))
+
+
+def read_patch(file, patch):
+    """Arrays of one wall patch of a .vtm file by name, with the faces' centres as "center"."""
+    parts = [part for name, part in read_blocks(file) if name == patch]
     if not parts:
         raise ValueError(f"{file}: no block {patch}")
     collected = {}

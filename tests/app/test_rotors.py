@@ -2,12 +2,15 @@
 import csv
 import json
 import math
+import os
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
 
+PYTHON = pathlib.Path(__file__).resolve().parents[2] / "python"
 WINDHOVER = pathlib.Path(sys.argv.pop(1)).resolve()
 
 CASE = """
@@ -180,6 +183,21 @@ class Rotors(unittest.TestCase):
                 lower, upper = (sum((b[0] - a[0]) * (a[1] + b[1]) / 2 for a, b in zip(s, s[1:])) for s in sides)
                 strip = min((s for s in strips if s["blade"] == blade), key=lambda s: abs(s["r_over_R"] - r_over_R))
                 self.assertAlmostEqual(lower - upper, strip["normal_coefficient"], delta=0.25 * strip["normal_coefficient"])
+
+    def test_pictures(self):
+        self.assertEqual(self.run_program("mesh", CASE).returncode, 0)
+        run = self.run_program("run", CASE, "--out", "out", "--set", "time.step_deg=5", "--set", "time.steps=3")
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        made = subprocess.run([sys.executable, "-m", "windhover.picture", "out", "--out", "pictures"], cwd=self.folder,
+                              env={**os.environ, "PYTHONPATH": str(PYTHON)}, capture_output=True, text=True)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertEqual(made.stderr, "")
+        for name in ("surface", "slice", "history"):
+            png = (self.folder / f"pictures/{name}.png").read_bytes()
+            self.assertEqual(png[:8], b"\x89PNG\r\n\x1a\n")
+            width, height = struct.unpack(">II", png[16:24])
+            self.assertTrue(800 <= height <= width <= 2000, (name, width, height))
+            self.assertGreater(len(png), 30_000, name)  # more than an empty frame
 
     def test_errors(self):
         self.check_error(self.run_program("mesh", second(CASE, "right", 1)), "case.toml:", "overlaps that of rotor")

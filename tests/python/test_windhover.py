@@ -5,10 +5,14 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
+from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
 
-from windhover import fit
+from windhover import fit, scene
 from windhover.exact import riemann, sphere, vortex
 
 SOD = (1.0, 0.0, 1.0), (0.125, 0.0, 0.1)
@@ -67,6 +71,54 @@ class Fit(unittest.TestCase):
     def test_harmonic(self):
         t = np.linspace(0, 7, 50)
         self.assertAlmostEqual(fit.harmonic(t, 3 * np.cos(2 * t + 0.4) + 5, 2), 3 * np.exp(0.4j))
+
+
+class Scene(unittest.TestCase):
+    """A box of 4 x 4 x 4 in tetrahedra, and its surface."""
+
+    def setUp(self):
+        image, tetrahedra, self.surface = vtkImageData(), vtkDataSetTriangleFilter(), vtkDataSetSurfaceFilter()
+        image.SetDimensions(5, 5, 5)
+        tetrahedra.SetInputData(image)
+        self.surface.SetInputConnection(tetrahedra.GetOutputPort())
+        self.surface.Update()
+        self.box = scene.Mesh(tetrahedra.GetOutput())
+
+    def walls(self):
+        skin = self.surface.GetOutput()
+        pressure = numpy_to_vtk(np.arange(float(skin.GetNumberOfCells())), deep=True)
+        pressure.SetName("pressure_Pa")
+        skin.GetCellData().AddArray(pressure)
+        skin.GetCells = skin.GetPolys
+        return scene.Walls([scene.Mesh(skin)])
+
+    def test_linear_values_at_points(self):
+        at = lambda places: places @ [[1.0], [2], [3]] + 1
+        points = self.box.points
+        center = points[self.box.nodes].reshape(-1, 4, 3).mean(axis=1)
+        error = np.abs(self.box.at_points(at(center)) - at(points))[:, 0]
+        margins = np.sum((points == 0) | (points == 4), axis=1)
+        self.assertLess(error[margins == 0].max(), 1e-6)
+        self.assertLess(error[margins == 1].mean(), 0.3)
+
+    def test_normals_point_out(self):
+        walls = self.walls()
+        self.assertTrue(np.all(np.sum(walls.normal * (walls.center - 2), axis=1) > 1.9))
+
+    def test_split(self):
+        walls = self.walls()
+        distance = lambda places: (places - 1.7) @ [0.6, 0.64, 0.48]
+        corners, face = walls.split(distance)
+        area = lambda c: np.linalg.norm(np.cross(c[:, 1] - c[:, 0], c[:, 2] - c[:, 0]), axis=1) / 2
+        self.assertGreater(len(corners), len(walls.corners))
+        np.testing.assert_allclose(np.bincount(face, area(corners)), area(walls.corners))
+        d = distance(corners)
+        self.assertTrue(np.all((d.max(axis=1) < 1e-12) | (d.min(axis=1) > -1e-12)))
+
+    def test_outline(self):
+        edges = self.walls().outline(np.array([0.1, 0.2, 1]))
+        length = np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1).sum()
+        self.assertAlmostEqual(length, 24)  # six edges of the box
 
 
 if __name__ == "__main__":
