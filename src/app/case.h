@@ -122,7 +122,7 @@ struct TimeOptions {
 
 struct SolverOptions {
   std::string preconditioner = "ilu";
-  int ilu_levels = 0;
+  int ilu_levels = 1;
   std::string jacobian = "exact";
   double newton_tolerance = 1e-3;
   int newton_iterations = 12;
