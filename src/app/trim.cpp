@@ -17,7 +17,19 @@ using coupling::Hold;
 using coupling::VectorXd;
 
 /// Far from balance, means need no more precision than this part of what is left.
-constexpr double kEnough = 0.1;
+constexpr double kEnough = 0.25;
+
+/// Of `count` windows that end before `end`.
+coupling::MeanLoads mean_of(const std::vector<coupling::MeanLoads>& windows, size_t end, size_t count) {
+  coupling::MeanLoads mean = windows[end - count];
+  for (size_t i = end - count + 1; i < end; ++i) {
+    mean.loads += windows[i].loads;
+    for (size_t j = 0; j < mean.rotor_wrench.size(); ++j) mean.rotor_wrench[j] += windows[i].rotor_wrench[j];
+  }
+  mean.loads /= static_cast<double>(count);
+  for (auto& wrench : mean.rotor_wrench) wrench /= static_cast<double>(count);
+  return mean;
+}
 
 /// One try after the other, each a flow that goes on from the last.
 class Trim : public coupling::BalanceProblem {
@@ -29,6 +41,7 @@ class Trim : public coupling::BalanceProblem {
     const double begin = MPI_Wtime();
     hold_ = held_.equilibrium().hold(u);
     try_ = {.number = try_.number + 1};
+    windows_.clear();
     if (try_.number > 1) {
       const double ramp = case_.trim.ramp_windows * window_s();
       held_.move_to(hold_, ramp);
@@ -73,7 +86,8 @@ class Trim : public coupling::BalanceProblem {
     return true;
   }
 
-  /// The means over one more window, and how much they changed. False: interrupted.
+  /// One more window. The means are those over the last third of the try's windows, and their change is that from the
+  /// third before: the first are still under the try before, and a wake is never the same twice. False: interrupted.
   bool average() {
     const double length = window_s();
     coupling::MeanLoads last = held_.air(), sum = last;
@@ -87,14 +101,18 @@ class Trim : public coupling::BalanceProblem {
       last = now;
     });
     if (!whole) return false;
+    windows_.push_back(sum);
     const coupling::Equilibrium& equilibrium = held_.equilibrium();
-    const VectorXd left = equilibrium.residual(hold_, sum.loads);
+    const size_t all = windows_.size(), third = std::max<size_t>(1, all / 3);
+    mean_ = mean_of(windows_, all, third);
+    const VectorXd left = equilibrium.residual(hold_, mean_.loads);
     try_.residual = left.lpNorm<Eigen::Infinity>();
-    if (++try_.windows > 1) {
-      try_.change = (left - equilibrium.residual(hold_, mean_.loads)).lpNorm<Eigen::Infinity>();
+    try_.windows = static_cast<int>(all);
+    if (all > 1) {
+      const VectorXd before = equilibrium.residual(hold_, mean_of(windows_, all - third, third).loads);
+      try_.change = (left - before).lpNorm<Eigen::Infinity>();
       try_.settled = try_.change <= std::max(case_.trim.mean_tolerance, kEnough * try_.residual);
     }
-    mean_ = sum;
     results_.tell(run_, try_);
     return true;
   }
@@ -104,6 +122,7 @@ class Trim : public coupling::BalanceProblem {
   HeldFlight& held_;
   TrimResults& results_;
   Hold hold_;
+  std::vector<coupling::MeanLoads> windows_;  ///< means of each of the try's
   coupling::MeanLoads mean_;
   Try try_;
   int signal_ = 0;
