@@ -128,6 +128,9 @@ void validate(const Case& c, const toml::table& file) {
       throw UserError("{}: {}: name and parent are needed", io::place(file, key), key);
     validate_direction(zone.axis, key + ".axis", file);
   }
+  for (size_t i = 0; i < c.wind.change.size(); ++i)
+    if (c.wind.change[i].kind == "gust" && c.wind.change[i].duration_s == 0)
+      throw UserError("{}: wind.change[{}].duration_s = 0: must be > 0 for a gust", io::place(file, "wind.change"), i);
   validate_vehicle(c, file);
   validate_time(c, file);
   validate_start(c, file);

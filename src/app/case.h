@@ -62,8 +62,15 @@ struct FluidOptions {
   double pressure_Pa() const { return density_kg_m3 * sound_speed_m_s * sound_speed_m_s / gamma; }
 };
 
+struct WindChangeOptions {
+  std::string kind = "ramp";
+  double start_s = 0, duration_s = 0;
+  Vec3 velocity_m_s = Vec3::Zero();
+};
+
 struct WindOptions {
   Vec3 velocity_m_s = Vec3::Zero();
+  std::vector<WindChangeOptions> change;
 };
 
 /// One elementary prescribed motion; the keys of the other kind are unused.

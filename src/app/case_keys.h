@@ -74,8 +74,21 @@ void declare(V& v, FluidOptions& o) {
 }
 
 template <class V>
+void declare(V& v, WindChangeOptions& o) {
+  v.key("kind", o.kind,
+        {.doc = "ramp: linear, and stays (without duration_s: a step); gust: half of (1 - cos), and is over",
+         .choices = {"ramp", "gust"}});
+  v.key("start_s", o.start_s, {.doc = "when it begins", .min = 0});
+  v.key("duration_s", o.duration_s, {.doc = "how long it lasts", .min = 0});
+  v.key("velocity_m_s", o.velocity_m_s, {.doc = "the change of velocity, inertial axes: all of a ramp's, the largest of a gust's"});
+}
+
+template <class V>
 void declare(V& v, WindOptions& o) {
   v.key("velocity_m_s", o.velocity_m_s, {.doc = "velocity of the free stream in the inertial frame"});
+  v.tables("change", o.change,
+           "Changes of the wind, which add up. The air changes its velocity everywhere at once, as in a gust that is long beside "
+           "the aircraft: the flow is solved in axes that move with the change (field-velocity method).");
 }
 
 template <class V>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/wind.h"
 #include "base/errors.h"
 
 namespace windhover::app {
@@ -75,8 +76,9 @@ Flight::Result Flight::advance(double dt) {
 
 double Flight::next_event() const {
   if (case_.coupling.step_tolerance == 0) return Mover::next_event();
-  double event = window_.next_event(vehicle());
-  if (case_.output.average_from_s > vehicle().t * (1 + kSameTime)) event = std::min(event, case_.output.average_from_s);
+  const double now = vehicle().t * (1 + kSameTime);
+  double event = std::min(window_.next_event(vehicle()), next_wind_change(case_.wind, now));
+  if (case_.output.average_from_s > now) event = std::min(event, case_.output.average_from_s);
   return event / scales_.time();
 }
 

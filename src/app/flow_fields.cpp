@@ -3,6 +3,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "app/wind.h"
 #include "mesh/cell_shape.h"
 #include "mesh/face_geometry.h"
 
@@ -24,20 +25,28 @@ std::uint8_t vtk_type(mesh::CellType type) {
   return 0;
 }
 
+/// What turns the flow solver's numbers into what is written.
+struct Air {
+  Scales scales;
+  double gamma;
+  Vec3 wind;  ///< what wind.change has added: the solver's velocities are relative to it
+};
+
 /// A block with its arrays, filled cell by cell; points are numbered as they come.
 class BlockBuilder {
  public:
-  BlockBuilder(std::string name, const mesh::Mesh& mesh, const mesh::FrameState& frame, const Scales& scales, double gamma)
-      : mesh_(mesh), frame_(frame), scales_(scales), gamma_(gamma) {
+  BlockBuilder(std::string name, const mesh::Mesh& mesh, const mesh::FrameState& frame, const Air& air)
+      : mesh_(mesh), frame_(frame), air_(air) {
     block_.name = std::move(name);
     block_.arrays = {{"density", 1, {}}, {"pressure_Pa", 1, {}}, {"velocity", 3, {}}, {"mach", 1, {}}};
   }
 
-  void add_cell(std::uint8_t type, std::span<const Index> points, const State<double>& s) {
+  void add_cell(std::uint8_t type, std::span<const Index> points, State<double> s) {
+    s.u += air_.wind.x(), s.v += air_.wind.y(), s.w += air_.wind.z();
     for (const Index p : points) {
       const auto [entry, fresh] = number_.try_emplace(p, static_cast<std::int64_t>(number_.size()));
       if (fresh) {
-        const Vec3 x = scales_.length * frame_.position(mesh_.point[p]);
+        const Vec3 x = air_.scales.length * frame_.position(mesh_.point[p]);
         block_.points.insert(block_.points.end(), x.data(), x.data() + 3);
       }
       block_.connectivity.push_back(entry->second);
@@ -45,10 +54,10 @@ class BlockBuilder {
     block_.offsets.push_back(static_cast<std::int64_t>(block_.connectivity.size()));
     block_.types.push_back(type);
     const auto put = [&](int array, double value) { block_.arrays[array].values.push_back(static_cast<float>(value)); };
-    put(0, scales_.density * s.rho);
-    put(1, scales_.pressure() * s.p);
-    for (const double component : {s.u, s.v, s.w}) put(2, scales_.velocity * component);
-    put(3, std::sqrt(fluid::speed_squared(s) * s.rho / (gamma_ * s.p)));
+    put(0, air_.scales.density * s.rho);
+    put(1, air_.scales.pressure() * s.p);
+    for (const double component : {s.u, s.v, s.w}) put(2, air_.scales.velocity * component);
+    put(3, std::sqrt(fluid::speed_squared(s) * s.rho / (air_.gamma * s.p)));
   }
 
   io::FieldBlock take() { return std::move(block_); }
@@ -56,8 +65,7 @@ class BlockBuilder {
  private:
   const mesh::Mesh& mesh_;
   const mesh::FrameState& frame_;
-  const Scales& scales_;
-  double gamma_;
+  const Air& air_;
   io::FieldBlock block_;
   std::unordered_map<Index, std::int64_t> number_;
 };
@@ -80,11 +88,10 @@ std::vector<Index> face_points(const mesh::Mesh& mesh, Index cell, const Vec3& a
   return best;
 }
 
-io::FieldBlock patch_block(const Case& c, fluid::FlowSolver& solver, const fluid::Frames& frames, int p,
-                           const Scales& scales) {
+io::FieldBlock patch_block(fluid::FlowSolver& solver, const fluid::Frames& frames, int p, const Air& air) {
   const mesh::Mesh& mesh = solver.euler().mesh();
   const auto& patch = mesh.patches[p];
-  BlockBuilder builder(patch.name, mesh, frames[patch.zone], scales, c.fluid.gamma);
+  BlockBuilder builder(patch.name, mesh, frames[patch.zone], air);
   const auto states = solver.euler().patch_states(solver.state().q, frames, p);
   size_t next = 0;
   for (const auto& b : patch.blocks)
@@ -100,9 +107,10 @@ io::FieldBlock patch_block(const Case& c, fluid::FlowSolver& solver, const fluid
 std::vector<io::FieldBlock> flow_fields(const Case& c, fluid::FlowSolver& solver, const fluid::Frames& frames) {
   const mesh::Mesh& mesh = solver.euler().mesh();
   const Scales scales(c.fluid);
+  const Air air{scales, c.fluid.gamma, wind_change(c.wind, solver.state().time * scales.time()) / scales.velocity};
   std::vector<BlockBuilder> zones;
   for (size_t z = 0; z < mesh.zones.size(); ++z)
-    zones.emplace_back(mesh.zones[z].name, mesh, frames[z], scales, c.fluid.gamma);
+    zones.emplace_back(mesh.zones[z].name, mesh, frames[z], air);
   const double* q = nullptr;
   petsc(VecGetArrayRead(solver.state().q, &q));
   for (Index i = 0; i < mesh.n_owned; ++i) {
@@ -117,7 +125,7 @@ std::vector<io::FieldBlock> flow_fields(const Case& c, fluid::FlowSolver& solver
   for (size_t p = 0; p < mesh.patches.size(); ++p) {
     const auto condition = c.fluid.boundary.find(mesh.patches[p].name);
     if (condition != c.fluid.boundary.end() && condition->second == "wall")
-      blocks.push_back(patch_block(c, solver, frames, static_cast<int>(p), scales));
+      blocks.push_back(patch_block(solver, frames, static_cast<int>(p), air));
   }
   return blocks;
 }

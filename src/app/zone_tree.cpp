@@ -5,6 +5,7 @@
 
 #include "app/flow_setup.h"
 #include "app/vehicle.h"
+#include "app/wind.h"
 #include "base/errors.h"
 #include "base/options.h"
 
@@ -65,7 +66,8 @@ ZonedMesh read_zones(const Case& c, MPI_Comm comm) {
   return z;
 }
 
-ZoneTree::ZoneTree(const Case& c, const mesh::Mesh& mesh) : body_(scaled_motion(c)), n_zones_(mesh.zones.size()) {
+ZoneTree::ZoneTree(const Case& c, const mesh::Mesh& mesh)
+    : wind_(c.wind), scales_(c.fluid), body_(scaled_motion(c)), n_zones_(mesh.zones.size()) {
   std::vector<Link> open;
   std::set<int> turning;
   for (size_t i = 0; i < c.zone.size(); ++i) {
@@ -86,7 +88,9 @@ ZoneTree::ZoneTree(const Case& c, const mesh::Mesh& mesh) : body_(scaled_motion(
 }
 
 fluid::Frames ZoneTree::frames(const mesh::FrameState& body, double time, const std::vector<Spin>& spins) const {
-  fluid::Frames frames(n_zones_, body);
+  mesh::FrameState outermost = body;
+  outermost.V -= wind_change(wind_, time * scales_.time()) / scales_.velocity;
+  fluid::Frames frames(n_zones_, outermost);
   for (const Link& link : links_) {
     mesh::Rotation rotation = link.rotation;
     if (link.rotor >= 0) {

@@ -19,6 +19,7 @@ class ZoneTree {
   ZoneTree(const Case& c, const mesh::Mesh& mesh);
   fluid::Frames frames(double time) const { return frames(body(time), time, {}); }
 
+  /// Velocities of all frames are relative to air that wind.change moves, so that it moves the air everywhere alike.
   /// Angle (rad) and speed of a rotor of the body, about its spin axis.
   struct Spin {
     double angle, speed;
@@ -37,6 +38,8 @@ class ZoneTree {
     int rotor;     ///< of the body that turns it, or −1
     double sense;  ///< of the rotor's spin about the zone's axis
   };
+  WindOptions wind_;
+  Scales scales_;
   mesh::Motion body_;  ///< of zones without a parent
   size_t n_zones_;
   std::vector<Link> links_;  ///< parents before children

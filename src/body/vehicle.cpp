@@ -59,6 +59,9 @@ std::vector<Rotor> build_rotors(const VehicleOptions& o, const Mat3& inertia, co
     const Vec3 axis = r.spin_axis.normalized();
     rest -= r.inertia_kg_m2 * axis * axis.transpose();
     rotors.push_back({r.name, r.inertia_kg_m2, axis, r.speed_rad_s, r.angle_rad, build_motor(r.motor, key + "motor.")});
+    if (!r.off_at_s) continue;
+    rotors.back().off_at = *r.off_at_s;
+    rotors.back().off = without_current(r.motor.friction_Nm, r.motor.friction_Nm_s);
   }
   const double smallest = Eigen::SelfAdjointEigenSolver<Mat3>(rest, Eigen::EigenvaluesOnly).eigenvalues()[0];
   if (!(smallest > 1e-12 * inertia.norm()))

@@ -1,5 +1,6 @@
 // The vehicle as an immutable model: validated, complete, SI units.
 #pragma once
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,10 @@ struct Rotor {
   Vec3 spin_axis_B;     ///< unit vector, right-handed
   double speed, angle;  ///< at t = 0
   Motor motor;
+  double off_at = std::numeric_limits<double>::infinity();
+  Motor off = {};  ///< in its place from then on
+
+  const Motor& motor_at(double t) const { return t < off_at ? motor : off; }
 };
 
 struct Vehicle {

@@ -24,16 +24,16 @@ struct RotorSums {
 };
 
 /// Fills the rates of the rotor speeds, those of free rotors as if the body did not accelerate.
-RotorSums turn_rotors(const std::vector<Rotor>& rotors, const double* speed, const double* air_torque,
+RotorSums turn_rotors(double t, const std::vector<Rotor>& rotors, const double* speed, const double* air_torque,
                       const double* command, double* speed_rate) {
   RotorSums sums;
   for (std::size_t j = 0; j < rotors.size(); ++j) {
     const Vec3& axis = rotors[j].spin_axis_B;
     const double inertia = rotors[j].inertia;
-    if (const auto* servo = std::get_if<ServoMotor>(&rotors[j].motor)) {
+    if (const auto* servo = std::get_if<ServoMotor>(&rotors[j].motor_at(t))) {
       speed_rate[j] = servo->acceleration(command[j], speed[j]);
     } else {
-      const auto& motor = std::get<TorqueMotor>(rotors[j].motor);
+      const auto& motor = std::get<TorqueMotor>(rotors[j].motor_at(t));
       speed_rate[j] = (motor.torque(command[j], speed[j]) + air_torque[j]) / inertia;
       sums.free_inertia += inertia * axis * axis.transpose();
     }
@@ -80,7 +80,7 @@ void VehicleOde::derivative(double t, std::span<const double> y, std::span<const
   const double* rotor_speed = y.data() + rotor_speed_offset();
   double* rotor_rate = rate.data() + rotor_speed_offset();
   const RotorSums sums =
-      turn_rotors(vehicle_.rotors, rotor_speed, loads.data() + LoadLayout::rotor, command.data(), rotor_rate);
+      turn_rotors(t, vehicle_.rotors, rotor_speed, loads.data() + LoadLayout::rotor, command.data(), rotor_rate);
 
   // Newton–Euler for the accelerations of P and the angular accelerations; v̇_G = a_P + R (ω̇ × p + ω × (ω × p)).
   const Vec3 p_PG_B = -vehicle_.p_GP_B;
@@ -106,7 +106,7 @@ void VehicleOde::derivative(double t, std::span<const double> y, std::span<const
   std::copy_n(acceleration.data(), mount.speed_size(), rate.data() + mount.position_size());
   std::copy_n(rotor_speed, rotors(), rate.data() + rotor_angle_offset());
   for (int j = 0; j < rotors(); ++j)
-    if (std::holds_alternative<TorqueMotor>(vehicle_.rotors[j].motor))
+    if (std::holds_alternative<TorqueMotor>(vehicle_.rotors[j].motor_at(t)))
       rotor_rate[j] -= vehicle_.rotors[j].spin_axis_B.dot(angular_acceleration);
 }
 

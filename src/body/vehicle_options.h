@@ -1,6 +1,7 @@
 // What a user says about the vehicle: SI units, radians, body axes x forward, y up, z right at the centre of gravity.
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct RotorOptions {
   double inertia_kg_m2 = 0;
   Vec3 spin_axis = Vec3::UnitY();  ///< right-handed: a positive speed turns about it
   double speed_rad_s = 0, angle_rad = 0;
+  std::optional<double> off_at_s = {};
   MotorOptions motor;
 };
 

@@ -99,7 +99,7 @@ class Cascade : public Controller {
   Vec3 velocity_error(const Measurement& m, const Setpoint& setpoint) const {
     Vec3 velocity = options_.position_gain_1_s.cwiseProduct(setpoint.p_W - m.p_WoG_W);
     if (velocity.norm() > options_.max_speed_m_s) velocity *= options_.max_speed_m_s / velocity.norm();
-    return velocity - m.v_WG_W;
+    return velocity + setpoint.v_W - m.v_WG_W;
   }
 
   /// What is missing to the angular velocity that the attitude asks for.

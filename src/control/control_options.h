@@ -28,6 +28,7 @@ struct WaypointOptions {
   double time_s = 0;
   Vec3 position_m = Vec3::Zero();
   double yaw_deg = 0;  ///< clockwise seen from above
+  Vec3 velocity_m_s = Vec3::Zero();
 };
 
 struct ControllerOptions {

@@ -13,7 +13,7 @@ Plan::Plan(const std::vector<WaypointOptions>& waypoints, const std::string& pre
       throw UserError("{}plan[{}].time_s: is {}, must be later than the {} before it", prefix, times_.size(),
                       waypoint.time_s, times_.back());
     times_.push_back(waypoint.time_s);
-    setpoints_.push_back({waypoint.position_m, -waypoint.yaw_deg * std::numbers::pi / 180});
+    setpoints_.push_back({waypoint.position_m, -waypoint.yaw_deg * std::numbers::pi / 180, waypoint.velocity_m_s});
   }
   if (setpoints_.empty()) {
     times_.push_back(0);

@@ -17,6 +17,7 @@ struct Measurement {
 struct Setpoint {
   Vec3 p_W = Vec3::Zero();
   double yaw = 0;  ///< rad, right-handed about y
+  Vec3 v_W = Vec3::Zero();
 };
 
 /// Commanded speed of each rotor (rad/s), positive in the rotor's own sense.

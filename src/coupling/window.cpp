@@ -31,7 +31,7 @@ Window::Window(const VehicleModel& model)
 int Window::responding_motions() const {
   const body::Vehicle& v = vehicle_.vehicle();
   return v.mount.speed_size() + static_cast<int>(std::count_if(v.rotors.begin(), v.rotors.end(), [](const auto& rotor) {
-           return std::holds_alternative<body::TorqueMotor>(rotor.motor);
+           return std::holds_alternative<body::TorqueMotor>(rotor.motor) || std::isfinite(rotor.off_at);
          }));
 }
 
@@ -65,7 +65,7 @@ control::Command Window::holding(const VehicleState& s, const Eigen::VectorXd& l
   for (int j = 0; j < vehicle_.rotors(); ++j)
     command.rotor_speed.push_back(std::visit(
         [&](const auto& motor) { return motor.holding(rotor_speed(s, j), loads[body::LoadLayout::rotor + j]); },
-        vehicle_.vehicle().rotors[j].motor));
+        vehicle_.vehicle().rotors[j].motor_at(s.t)));
   return command;
 }
 
@@ -102,12 +102,19 @@ body::Ode Window::problem(const control::Setpoint& setpoint, const body::LoadPol
           .project = [this](std::span<double> y) { vehicle_.project(y); }};
 }
 
+double Window::next_motor_off(double t) const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const auto& rotor : vehicle_.vehicle().rotors)
+    if (rotor.off_at > t) next = std::min(next, rotor.off_at);
+  return next;
+}
+
 VehicleState Window::advance(const VehicleState& start, const body::LoadPolynomial& loads, double end) const {
   VehicleState s = start;
   while (s.t < end) {
     if (is_sampled() && sampler_.next_time(s.sampled) <= s.t)
       sampler_.sample(measure(s.t, s.y), plan_.at(s.t), s.sampled);
-    double stop = std::min(end, plan_.next_change(s.t));
+    double stop = std::min({end, plan_.next_change(s.t), next_motor_off(s.t)});
     if (is_sampled()) stop = std::min(stop, sampler_.next_time(s.sampled));
     integrator_.advance(problem(plan_.at(s.t), loads, s.sampled), s.t, stop, s.y);
     s.t = stop;
@@ -117,7 +124,7 @@ VehicleState Window::advance(const VehicleState& start, const body::LoadPolynomi
 
 double Window::next_event(const VehicleState& s) const {
   const double after = s.t * (1 + kSameTime);
-  double event = plan_.next_change(after);
+  double event = std::min(plan_.next_change(after), next_motor_off(after));
   if (is_sampled()) event = std::min(event, (std::floor(after * sampler_rate_) + 1) / sampler_rate_);
   return event;
 }

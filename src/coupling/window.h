@@ -66,6 +66,7 @@ class Window {
   double pose_difference(const VehicleState& start, const VehicleState& a, const VehicleState& b, double length) const;
 
  private:
+  double next_motor_off(double t) const;
   bool is_sampled() const { return sampler_rate_ > 0; }
   control::Measurement measure(double t, std::span<const double> y) const;
   body::Ode problem(const control::Setpoint& setpoint, const body::LoadPolynomial& loads,

@@ -67,6 +67,17 @@ TEST_CASE("headwind: it holds its place, nose down by atan(drag / weight)") {
     CHECK(loop.rotor_speed(j) == Approx(std::sqrt(thrust / airframe.rotors[j].thrust_N_s2)).epsilon(1e-3));
 }
 
+TEST_CASE("a waypoint's velocity is flown where no position is held") {
+  ControllerOptions o = cascade(0);
+  o.cascade.position_gain_1_s = Vec3(0, 1.5, 0);
+  o.plan = {{.velocity_m_s = Vec3(5, 0, -1)}};
+  ClosedLoop loop(quadcopter(), o);
+  loop.drag_area = 0.1;
+  loop.advance(25);
+  CHECK((loop.measure().v_WG_W - Vec3(5, 0, -1)).norm() < 5e-3);
+  CHECK(std::abs(loop.measure().p_WoG_W.y()) < 2e-3);
+}
+
 TEST_CASE("saturation: a far target neither winds up the integrators nor topples the vehicle") {
   const double rate_hz = GENERATE(0.0, 250.0);
   ControllerOptions o = cascade(rate_hz);

@@ -113,6 +113,31 @@ TEST_CASE("window: loads that move something: six and torque-driven rotors, not 
   CHECK(responds[8]);
 }
 
+TEST_CASE("window: a motor that goes off leaves its rotor to the air, and the body what the air does to the rotor",
+          "[coupling]") {
+  VehicleModel model = flyer();
+  model.controller.rate_hz = 0;
+  model.vehicle.rotor[1].off_at_s = 0.013;
+  const Window window(model);
+  VehicleState s = window.start();
+  CHECK(window.next_event(s) == 0.013);
+  VectorXd x = VectorXd::Zero(window.interface_size());
+  x[body::LoadLayout::rotor + 1] = -0.2;
+  const body::LoadPolynomial load({{0, x}});
+  CHECK_FALSE(window.responding_loads(s)[body::LoadLayout::rotor + 1]);
+  s = window.advance(s, load, 0.013);
+  const auto absolute = [&] {
+    return window.rotor_speed(s, 1) + window.kinematics(s).omega_WB_B.dot(window.vehicle().vehicle().rotors[1].spin_axis_B);
+  };
+  const double before = absolute();
+  CHECK(window.responding_loads(s)[body::LoadLayout::rotor + 1]);
+  s = window.advance(s, load, 0.04);
+  const double slowed = -0.2 / model.vehicle.rotor[1].inertia_kg_m2 * (0.04 - 0.013);
+  CHECK(absolute() - before == Approx(slowed).epsilon(1e-5));
+  CHECK(window.rotor_speed(window.advance(window.start(), load, 0.05), 1) ==
+        Approx(window.rotor_speed(window.advance(s, load, 0.05), 1)).epsilon(1e-6));
+}
+
 TEST_CASE("a step begins once, iterates, and is accepted once; the air sees the motion that is accepted",
           "[coupling]") {
   const SphereCase sphere{.mass = 5, .stiffness = 5};

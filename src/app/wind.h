@@ -1,0 +1,13 @@
+// Wind that changes in time.
+#pragma once
+#include "app/case.h"
+
+namespace windhover::app {
+
+/// What the changes of the wind have added to its velocity at a time (s): m/s, inertial axes.
+Vec3 wind_change(const WindOptions& wind, double t);
+
+/// The first time (s) after t at which the wind begins or ceases to change; infinite when there is none.
+double next_wind_change(const WindOptions& wind, double t);
+
+}  // namespace windhover::app
