@@ -103,7 +103,7 @@ def draw_surface(scene, heading, file):
     (left, bottom), (right, top) = ends.min(axis=0), ends.max(axis=0)
     axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal", title=heading)
     axes.set_axis_off()
-    ticks = [10.0**k for k in range(-3, 6) if pressure.linear_width < 10.0**k < pressure.vmax]
+    ticks = [m * 10**k for k in range(6) for m in (1, 3) if 2 * pressure.linear_width < m * 10**k < pressure.vmax]
     look = dict(ax=axes, shrink=0.75, aspect=30)
     bar = figure.colorbar(ScalarMappable(pressure, PRESSURE), label="gauge pressure on the walls [Pa]", extend="both",
                           ticks=[*(-t for t in reversed(ticks)), 0, *ticks], format="%g", **look)
