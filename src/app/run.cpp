@@ -25,6 +25,7 @@ Run::Run(const Case& c, const std::filesystem::path& directory)
       zones_(c, mesh_),
       checkpoint_(c, mesh_),
       summary_(c, mesh_),
+      audit_(c),
       control_(is_dynamic(c) ? c.coupling.step_tolerance : 0) {}
 
 std::vector<double> Run::begin(bool restart) {
@@ -66,6 +67,7 @@ Loads Run::append_history(StepRecord record) {
   const fluid::Frames now = mover_->frames();
   const auto fluxes = euler_.patch_fluxes(solver_.state().q, now);
   record.rotors = rotors_->step(solver_, fluxes, now);
+  audit_.add(solver_, fluxes);
   return history_->append(solver_, mover_->body(), fluxes, record);
 }
 
@@ -115,7 +117,7 @@ void Run::write_fields() {
 void Run::finish(bool fields) {
   if (!saved_) write_checkpoint();
   if (fields) write_fields();
-  summary_.write(directory_, solver_, rotors_->summary(), MPI_Wtime() - started_);
+  summary_.write(directory_, solver_, rotors_->summary(), audit_.result(solver_), MPI_Wtime() - started_);
 }
 
 }  // namespace windhover::app

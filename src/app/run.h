@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 
+#include "app/momentum_audit.h"
 #include "app/flow_checkpoint.h"
 #include "app/history.h"
 #include "app/mover.h"
@@ -58,6 +59,7 @@ class Run {
   ZoneTree zones_;
   FlowCheckpoint checkpoint_;
   Summary summary_;
+  MomentumAudit audit_;
   Mover* mover_ = nullptr;
   std::optional<std::int64_t> from_;
   std::vector<double> averages_;

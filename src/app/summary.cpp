@@ -41,7 +41,7 @@ void Summary::step(const fluid::StepReport& report, int coupling, const fluid::F
 }
 
 void Summary::write(const std::filesystem::path& directory, const fluid::FlowSolver& solver, const nlohmann::ordered_json& rotors,
-                    double wall_s) const {
+                    const nlohmann::ordered_json& momentum, double wall_s) const {
   int ranks = 1;
   MPI_Comm_size(mesh_.comm, &ranks);
   const long steps = solver.state().step - first_step_;
@@ -67,6 +67,7 @@ void Summary::write(const std::filesystem::path& directory, const fluid::FlowSol
                    {"moment_Nm", list(per_average * sum_.moment_Nm)}};
   if (!rotors.empty()) j["rotors"] = rotors;
   j["mass_drift"] = total_mass(mesh_, solver.state().q) / mass_ - 1;
+  j["momentum"] = momentum;
   io::write_json(directory / "summary.json", j, mesh_.comm);
 }
 

@@ -18,7 +18,7 @@ class Summary {
   void rejected() { ++rejected_; }
   void output(double seconds) { output_s_ += seconds; }
   void write(const std::filesystem::path& directory, const fluid::FlowSolver& solver, const nlohmann::ordered_json& rotors,
-             double wall_s) const;
+             const nlohmann::ordered_json& momentum, double wall_s) const;
 
  private:
   const Case& case_;

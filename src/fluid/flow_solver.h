@@ -44,6 +44,7 @@ class FlowSolver {
   FlowState& state() { return state_; }
   const FlowState& state() const { return state_; }
   EulerOperator& euler() { return euler_; }
+  const EulerOperator& euler() const { return euler_; }
 
   /// One step of size dt. Accepted: state() is the new one. Otherwise state() is unchanged and the reason is told.
   StepReport advance(const FrameFunction& frames, double dt);
