@@ -140,14 +140,29 @@ void validate(const Case& c, const toml::table& file) {
                     most_steps, step_seconds(c));
 }
 
+/// The keys of another case file with those of this one over them.
+toml::table lay_over(const std::string& like, const fs::path& file, toml::table& keys) {
+  if (fs::path(like).has_parent_path())
+    throw UserError("{}: like = \"{}\": must be a file in the folder of this one", io::place(keys, "like"), like);
+  toml::table root = io::read_toml(file.parent_path() / like);
+  if (root.contains("like")) throw UserError("{}: like: this file is itself like another", io::place(root, "like"));
+  keys.erase("like");
+  io::merge(root, keys);
+  return root;
+}
+
 }  // namespace
 
 Case load_case(const fs::path& file, const std::vector<std::string>& overrides) {
-  toml::table root = io::read_toml(file, overrides);
-  copy_like_rotors(root);
   Case c;
   c.file = fs::absolute(file).lexically_normal();
-  c.name = case_name(c.file);
+  c.name = c.mesh_name = case_name(c.file);
+  toml::table root = io::read_toml(file, overrides);
+  if (const auto like = root["like"].value<std::string>(); like && !like->empty()) {
+    c.mesh_name = case_name(c.file.parent_path() / *like);
+    root = lay_over(*like, c.file, root);
+  }
+  copy_like_rotors(root);
   io::read_options(root, c);
   validate_resolution(c.mesh, root);
   complete(c);

@@ -152,6 +152,8 @@ struct OutputOptions {
 struct Case {
   std::string name;            ///< the folder of a file called case.toml, otherwise the file's own name
   std::filesystem::path file;  ///< absolute
+  std::string like;            ///< after load_case: empty
+  std::string mesh_name;       ///< the name of the case that the mesh is named after
   MeshOptions mesh;
   FluidOptions fluid;
   WindOptions wind;

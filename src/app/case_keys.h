@@ -225,6 +225,7 @@ void declare(V& v, OutputOptions& o) {
 
 template <class V>
 void declare(V& v, Case& o) {
+  v.key("like", o.like, {.doc = "a case file in the same folder whose keys hold where this one has no others; its mesh is shared"});
   v.section("mesh", o.mesh, "Where the mesh is and how it is made.");
   v.section("fluid", o.fluid, "The gas, the boundaries and the discretisation in space.");
   v.section("wind", o.wind, "The air far away.");

@@ -26,9 +26,9 @@ void copy_missing(toml::table& target, const toml::table& from) {
 
 /// <case>_<resolution>_refine<refine>.msh; the second part only where it tells something.
 std::string mesh_name(const Case& c) {
-  if (c.mesh.resolution.empty()) return fmt::format("{}_refine{}.msh", c.name, c.mesh.refine);
+  if (c.mesh.resolution.empty()) return fmt::format("{}_refine{}.msh", c.mesh_name, c.mesh.refine);
   const std::string refine = c.mesh.refine == 1 ? "" : fmt::format("_refine{}", c.mesh.refine);
-  return fmt::format("{}_{}{}.msh", c.name, c.mesh.resolution, refine);
+  return fmt::format("{}_{}{}.msh", c.mesh_name, c.mesh.resolution, refine);
 }
 
 ZoneOptions zone_of(const geometry::RotorOptions& rotor) {

@@ -20,6 +20,9 @@ std::string place(const toml::node& node);
 /// string; an element of an array of tables is named by its number from 0.
 toml::table read_toml(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
+/// `from` over `target`: tables are united, in arrays of tables by number; anything else is replaced. UserError: no such element.
+void merge(toml::table& target, toml::table& from);
+
 /// "file:line" of a dotted key, or the file when the key is not there.
 std::string place(const toml::table& root, const std::string& dotted_key);
 

@@ -11,8 +11,6 @@ namespace {
 
 const std::string override_mark = "--set ";
 
-void merge(toml::table& target, toml::table& from);
-
 /// An element of an array is named by its number.
 void merge_element(toml::array& target, const std::string& name, toml::node& from, const std::string& key) {
   size_t index = 0;
@@ -21,22 +19,6 @@ void merge_element(toml::array& target, const std::string& name, toml::node& fro
     throw UserError("{}: {} has elements 0 to {}, not \"{}\"", place(from), key, int(target.size()) - 1, name);
   if (auto* element = target[index].as_table(); element && from.is_table()) return merge(*element, *from.as_table());
   from.visit([&](auto& value) { target.replace(target.cbegin() + index, std::move(value)); });
-}
-
-void merge(toml::table& target, toml::table& from) {
-  for (auto&& [key, node] : from) {
-    toml::node* there = target.get(key);
-    const bool on_the_way = node.is_table() && !node.as_table()->is_inline();  // a part of the dotted key
-    if (there && there->is_table() && on_the_way) {
-      merge(*there->as_table(), *node.as_table());
-    } else if (there && there->is_array() && on_the_way) {
-      for (auto&& [name, element] : *node.as_table())
-        merge_element(*there->as_array(), std::string(name.str()), element, std::string(key.str()));
-    } else {
-      // Moved, not copied: a copied node forgets where it came from.
-      node.visit([&, &k = key](auto& value) { target.insert_or_assign(k, std::move(value)); });
-    }
-  }
 }
 
 toml::table parse_override(const std::string& text) {
@@ -61,6 +43,22 @@ toml::table parse_override(const std::string& text) {
 }
 
 }  // namespace
+
+void merge(toml::table& target, toml::table& from) {
+  for (auto&& [key, node] : from) {
+    toml::node* there = target.get(key);
+    const bool on_the_way = node.is_table() && !node.as_table()->is_inline();  // a part of the dotted key
+    if (there && there->is_table() && on_the_way) {
+      merge(*there->as_table(), *node.as_table());
+    } else if (there && there->is_array() && on_the_way) {
+      for (auto&& [name, element] : *node.as_table())
+        merge_element(*there->as_array(), std::string(name.str()), element, std::string(key.str()));
+    } else {
+      // Moved, not copied: a copied node forgets where it came from.
+      node.visit([&, &k = key](auto& value) { target.insert_or_assign(k, std::move(value)); });
+    }
+  }
+}
 
 std::string place(const toml::node& node) {
   const toml::source_region& source = node.source();

@@ -165,6 +165,36 @@ TEST_CASE("wrong cases: the place is the line of the file", "[app]") {
   CHECK_THROWS_WITH(load_case("/none/case.toml"), "/none/case.toml: cannot read this file");
 }
 
+TEST_CASE("a case like another: its keys over those of the other, elements of arrays by number", "[app]") {
+  const CaseFile base(minimal);
+  const auto other = base.path.parent_path() / "slow.toml";
+  std::ofstream(other) << "like = \"case.toml\"\n[body.motion.0]\nrate_deg_s = -5\n[time]\nsteps = 7\n";
+  const app::Case c = load_case(other, {"body.motion[1].amplitude_m=4"});
+  CHECK(c.name == "slow");
+  CHECK(c.body.motion[0].rate_deg_s == -5);
+  CHECK(c.body.motion[0].kind == "rotation");
+  CHECK(c.body.motion[1].amplitude_m == 4);
+  CHECK(c.body.motion[1].frequency_hz == 3);
+  CHECK(c.time.steps == 7);
+  CHECK(c.time.step_deg == 2.0);
+  CHECK(c.mesh.file == load_case(base.path).mesh.file);
+  CHECK_THAT(error_in("like = \"../case.toml\"\n"), Contains(":1: like = \"../case.toml\": must be a file in the folder"));
+  CHECK_THAT(error_in("like = \"none.toml\"\n"), Contains("none.toml: cannot read this file"));
+  CHECK_THAT(error_in("like = \"case.toml\"\n"), Contains("this file is itself like another"));
+}
+
+TEST_CASE("every case of the project is read", "[app]") {
+  int read = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(WINDHOVER_SOURCE_DIR "/cases")) {
+    const auto& file = entry.path();
+    if (file.extension() != ".toml" || file.filename() == "verify.toml" || file.stem().extension() == ".msh") continue;
+    INFO(file);
+    CHECK_NOTHROW(load_case(file));
+    ++read;
+  }
+  CHECK(read > 15);
+}
+
 TEST_CASE("docs/case-file.md is current", "[app]") {
   INFO("renew it with `windhover keys > docs/case-file.md`");
   CHECK(io::read_text(WINDHOVER_SOURCE_DIR "/docs/case-file.md") ==
