@@ -80,9 +80,8 @@ void validate_time(const Case& c, const toml::table& file) {
 void validate_start(const Case& c, const toml::table& file) {
   if (c.time.start_from.empty()) return;
   const std::string at = io::place(file, "time.start_from");
-  for (size_t i = 0; i < c.zone.size(); ++i)
-    if (rotor_of_zone(c, c.zone[i]) < 0 && (c.zone[i].rate_deg_s != 0 || c.zone[i].amplitude_deg != 0))
-      throw UserError("{}: time.start_from: \"{}\" turns as prescribed: {}", at, c.zone[i].name, kClock);
+  if (const ZoneOptions* zone = zone_turned_by_time(c))
+    throw UserError("{}: time.start_from: \"{}\" turns as prescribed: {}", at, zone->name, kClock);
   for (size_t i = 0; !is_dynamic(c) && i < c.body.motion.size(); ++i) {
     const MotionOptions& m = c.body.motion[i];
     if (m.amplitude_m != 0 || m.amplitude_deg != 0 || m.rate_deg_s != 0)

@@ -31,8 +31,6 @@ std::vector<ZoneTree::Spin> spins(const Case& c, const coupling::Window& window,
 /// Forces on this much of the reference pressure are round-off.
 constexpr double kForceRoundOff = 1e-9;
 
-constexpr double kSameTime = 1e-12;  // times this close, relative to themselves, are one
-
 }  // namespace
 
 Flight::Flight(const Case& c, fluid::FlowSolver& solver, const ZoneTree& zones)
@@ -76,7 +74,7 @@ Flight::Result Flight::advance(double dt) {
 
 double Flight::next_event() const {
   if (case_.coupling.step_tolerance == 0) return Mover::next_event();
-  const double now = vehicle().t * (1 + kSameTime);
+  const double now = vehicle().t * (1 + coupling::kSameTime);
   double event = std::min(window_.next_event(vehicle()), next_wind_change(case_.wind, now));
   if (case_.output.average_from_s > now) event = std::min(event, case_.output.average_from_s);
   return event / scales_.time();

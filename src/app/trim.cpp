@@ -128,14 +128,6 @@ class Trim : public coupling::BalanceProblem {
   int signal_ = 0;
 };
 
-void require_steady_zones(const Case& c) {
-  for (size_t i = 0; i < c.zone.size(); ++i)
-    if (rotor_of_zone(c, c.zone[i]) < 0 && (c.zone[i].rate_deg_s != 0 || c.zone[i].amplitude_deg != 0))
-      throw UserError(
-          "zone[{}]: \"{}\" turns by itself, and a trim is for rotors of the body: give it a [[body.rotor]]", i,
-          c.zone[i].name);
-}
-
 void require_window(const Case& c) {
   const coupling::TrimOptions& o = c.trim;
   bool turns = false;
@@ -155,7 +147,9 @@ void validate_trim(const Case& c) {
     const coupling::Window window(vehicle_model(c));
     const coupling::Equilibrium equilibrium(window, c.trim, c.fluid.length_m);
     require_window(c);
-    require_steady_zones(c);
+    if (const ZoneOptions* zone = zone_turned_by_time(c))
+      throw UserError("zone: \"{}\" turns by itself, and a trim is for rotors of the body: give it a [[body.rotor]]",
+                      zone->name);
   } catch (const UserError& error) {
     throw UserError("{}: {}", c.file.string(), error.what());
   }

@@ -91,6 +91,12 @@ int rotor_of_zone(const Case& c, const ZoneOptions& zone) {
   return found == rotors.end() ? -1 : static_cast<int>(found - rotors.begin());
 }
 
+const ZoneOptions* zone_turned_by_time(const Case& c) {
+  for (const ZoneOptions& zone : c.zone)
+    if (rotor_of_zone(c, zone) < 0 && (zone.rate_deg_s != 0 || zone.amplitude_deg != 0)) return &zone;
+  return nullptr;
+}
+
 coupling::VehicleModel vehicle_model(const Case& c) {
   coupling::VehicleModel model{c.body.vehicle, c.body.integrator, c.controller.law, {}};
   for (size_t j = 0; j < c.body.vehicle.rotor.size(); ++j)

@@ -19,6 +19,9 @@ coupling::VehicleModel vehicle_model(const Case& c);
 /// The rotor of the body with this zone's name, or −1.
 int rotor_of_zone(const Case& c, const ZoneOptions& zone);
 
+/// The first zone that turns as time alone prescribes; null: none does.
+const ZoneOptions* zone_turned_by_time(const Case& c);
+
 /// UserError when there can be no such vehicle, or its rotors do not fit the zones that turn with them.
 void validate_vehicle(const Case& c, const toml::table& file);
 

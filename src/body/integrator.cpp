@@ -2,12 +2,10 @@
 
 #include <cvode/cvode.h>
 #include <cvode/cvode_proj.h>
-#include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include <cmath>
-#include <type_traits>
 #include <vector>
 
 #include "base/errors.h"
@@ -16,22 +14,8 @@
 namespace windhover::body {
 namespace {
 
-template <auto Free>
-struct Release {
-  template <class T>
-  void operator()(T* object) const {
-    Free(object);
-  }
-};
-struct ReleaseCvode {
-  void operator()(void* memory) const { CVodeFree(&memory); }
-};
-using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, Release<N_VDestroy>>;
-using Matrix = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, Release<SUNMatDestroy>>;
-using LinearSolver = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, Release<SUNLinSolFree>>;
-using Cvode = std::unique_ptr<void, ReleaseCvode>;
-
-void free_context(SUNContext context) { SUNContext_Free(&context); }
+using sundials::values;
+using Cvode = std::unique_ptr<void, sundials::ReleaseMemory<CVodeFree>>;
 
 /// What the callbacks share.
 struct Problem {
@@ -46,8 +30,6 @@ constexpr int kUnrecoverable = -1;
 /// Windows shorter than this part of the time itself, between a sample and a step end that rounding has set apart, are
 /// no work for CVODE: one Euler step is exact to far below round-off.
 constexpr double kInstant = 1e-13;
-
-std::span<double> values(N_Vector v) { return {N_VGetArrayPointer(v), static_cast<std::size_t>(NV_LENGTH_S(v))}; }
 
 int derivative(double t, N_Vector y, N_Vector rate, void* data) {
   Problem& problem = *static_cast<Problem*>(data);
@@ -81,11 +63,7 @@ void check(int flag) {
 
 }  // namespace
 
-Integrator::Integrator(const IntegratorOptions& options) : options_(options), context_(nullptr, free_context) {
-  SUNContext context = nullptr;
-  if (SUNContext_Create(nullptr, &context) != 0) throw std::runtime_error("SUNDIALS: no context");
-  context_.reset(context);
-}
+Integrator::Integrator(const IntegratorOptions& options) : options_(options), context_(sundials::make_context()) {}
 
 void Integrator::advance(const Ode& ode, double t0, double t1, std::span<double> y) const {
   if (y.empty()) return;
@@ -93,10 +71,10 @@ void Integrator::advance(const Ode& ode, double t0, double t1, std::span<double>
   const auto n = static_cast<sunindextype>(y.size());
   const bool bdf = options_.method == "bdf";
   Problem problem{ode, {}};
-  const Vector state(N_VNew_Serial(n, context_.get()));
+  const sundials::Vector state(N_VNew_Serial(n, context_.get()));
   std::copy(y.begin(), y.end(), values(state.get()).begin());
-  const Matrix matrix(SUNDenseMatrix(n, n, context_.get()));
-  const LinearSolver solver(SUNLinSol_Dense(state.get(), matrix.get(), context_.get()));
+  const sundials::Matrix matrix(SUNDenseMatrix(n, n, context_.get()));
+  const sundials::LinearSolver solver(SUNLinSol_Dense(state.get(), matrix.get(), context_.get()));
   const Cvode cvode(CVodeCreate(bdf ? CV_BDF : CV_ADAMS, context_.get()));
 
   check(CVodeInit(cvode.get(), derivative, t0, state.get()));

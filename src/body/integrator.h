@@ -1,10 +1,10 @@
 // CVODE over one window: state in, state out.
 #pragma once
-#include <sundials/sundials_context.h>
 
 #include <memory>
 #include <string>
 
+#include "base/sundials.h"
 #include "body/ode.h"
 
 namespace windhover::body {
@@ -26,7 +26,7 @@ class Integrator {
 
  private:
   IntegratorOptions options_;
-  std::unique_ptr<_SUNContext, void (*)(SUNContext)> context_;
+  sundials::Context context_;
 };
 
 }  // namespace windhover::body

@@ -1,32 +1,15 @@
 // Anderson acceleration by KINSOL's fixed-point iteration (Walker & Ni, SIAM J. Numer. Anal. 49, 2011). KINSOL proposes
 // the loads; each call of its system function is one coupling iteration, and the judgement of when to stop is not
 // KINSOL's: the function then returns an error, which ends its loop.
-#include <kinsol/kinsol.h>
-#include <nvector/nvector_serial.h>
-
 #include <algorithm>
-#include <type_traits>
 
 #include "base/petsc.h"
 #include "coupling/first_factor.h"
+#include "coupling/kinsol.h"
 #include "coupling/scheme.h"
 
 namespace windhover::coupling {
 namespace {
-
-struct FreeVector {
-  void operator()(N_Vector v) const { N_VDestroy(v); }
-};
-using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, FreeVector>;
-struct FreeKinsol {
-  void operator()(void* memory) const { KINFree(&memory); }
-};
-
-Eigen::Map<VectorXd> values(N_Vector v) { return {N_VGetArrayPointer(v), NV_LENGTH_S(v)}; }
-
-void check(int flag) {
-  if (flag < 0) throw std::runtime_error(std::string("KINSOL: ") + KINGetReturnFlagName(flag));
-}
 
 /// What the system function needs; vectors in KINSOL are scaled.
 struct Problem {
@@ -58,14 +41,12 @@ void no_message(int, const char*, const char*, char*, void*) {}
 class Anderson : public Scheme {
  public:
   Anderson(const CouplingOptions& options, int size, int motions)
-      : first_(options.relaxation), context_(nullptr, [](SUNContext c) { SUNContext_Free(&c); }) {
-    SUNContext context = nullptr;
-    check(SUNContext_Create(nullptr, &context));
-    context_.reset(context);
-    x_.reset(N_VNew_Serial(size, context));
-    one_.reset(N_VNew_Serial(size, context));
+      : first_(options.relaxation),
+        context_(sundials::make_context()),
+        x_(N_VNew_Serial(size, context_.get())),
+        one_(N_VNew_Serial(size, context_.get())),
+        kinsol_(KINCreate(context_.get())) {
     N_VConst(1.0, one_.get());
-    kinsol_.reset(KINCreate(context));
     check(KINSetNumMaxIters(kinsol_.get(), options.max_iterations));
     // residuals vary in as many directions as the vehicle has motions; further columns would be linearly dependent
     check(KINSetMAA(kinsol_.get(), std::clamp(motions, 1, options.columns)));
@@ -90,9 +71,9 @@ class Anderson : public Scheme {
 
  private:
   FirstFactor first_;
-  std::unique_ptr<_SUNContext, void (*)(SUNContext)> context_;
-  Vector x_, one_;
-  std::unique_ptr<void, FreeKinsol> kinsol_;
+  sundials::Context context_;
+  sundials::Vector x_, one_;
+  Kinsol kinsol_;
 };
 
 }  // namespace

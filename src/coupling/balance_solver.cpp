@@ -1,7 +1,5 @@
 #include "coupling/balance_solver.h"
 
-#include <kinsol/kinsol.h>
-#include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
@@ -10,13 +8,14 @@
 
 #include "base/errors.h"
 #include "base/petsc.h"
+#include "coupling/kinsol.h"
 
 namespace windhover::coupling {
 namespace {
 
 /// Change of a scaled unknown for a difference.
 constexpr double kDifference = 0.1;
-/// Changes of F that tell of the Jacobian are this many times the uncertainty.
+/// Surprises of F that tell of the Jacobian are this many times the uncertainty.
 constexpr double kSignificant = 3;
 /// KINSOL calls steps below this no progress; the tolerance on F is what ends the search.
 constexpr double kLeastStep = 1e-8;
@@ -73,11 +72,10 @@ class Learner {
   VectorXd u, f;  ///< the latest
 
  private:
-  /// A change, expected or found, that is lost in the uncertainty says nothing of the Jacobian.
+  /// A surprise that is lost in the uncertainty says nothing of that force's row of the Jacobian.
   void correct(const VectorXd& du, const VectorXd& df, double uncertainty) {
-    const VectorXd expected = J_ * du;
-    if (std::max(expected.lpNorm<Eigen::Infinity>(), df.lpNorm<Eigen::Infinity>()) <= kSignificant * uncertainty) return;
-    J_ += (df - expected) * du.transpose() / du.squaredNorm();
+    const VectorXd surprise = df - J_ * du;
+    J_ += (surprise.array().abs() > kSignificant * uncertainty).select(surprise, 0) * du.transpose() / du.squaredNorm();
   }
 
   BalanceProblem& problem_;
@@ -91,8 +89,6 @@ struct Shared {
   Learner learner;
   CallbackGuard guard = {};
 };
-
-Eigen::Map<VectorXd> values(N_Vector v) { return {N_VGetArrayPointer(v), NV_LENGTH_S(v)}; }
 
 int function(N_Vector u, N_Vector f, void* data) {
   Shared& shared = *static_cast<Shared*>(data);
@@ -120,31 +116,6 @@ void keep_message(int code, const char*, const char*, char* message, void* data)
   if (code < 0) *static_cast<std::string*>(data) = message;
 }
 
-void check(int flag) {
-  if (flag < 0) throw std::runtime_error(std::string("KINSOL: ") + KINGetReturnFlagName(flag));
-}
-
-template <auto Free>
-struct Release {
-  template <class T>
-  void operator()(T* object) const {
-    Free(object);
-  }
-};
-struct ReleaseKinsol {
-  void operator()(void* memory) const { KINFree(&memory); }
-};
-using Context = std::unique_ptr<_SUNContext, void (*)(SUNContext)>;
-using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, Release<N_VDestroy>>;
-using Matrix = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, Release<SUNMatDestroy>>;
-using LinearSolver = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, Release<SUNLinSolFree>>;
-
-Context make_context() {
-  SUNContext context = nullptr;
-  check(SUNContext_Create(nullptr, &context));
-  return {context, [](SUNContext c) { SUNContext_Free(&c); }};
-}
-
 std::string reason(int flag, const Learner& learner, const std::string& message) {
   if (learner.exhausted) return fmt::format("no balance after {} tries", learner.evaluations);
   return fmt::format("KINSOL: {} ({})", KINGetReturnFlagName(flag), message);
@@ -153,17 +124,17 @@ std::string reason(int flag, const Learner& learner, const std::string& message)
 /// KINSOL from the start, which has been evaluated; returns its flag.
 int run_kinsol(Shared& shared, const VectorXd& start, const BalanceOptions& options, std::string& message) {
   const auto n = static_cast<sunindextype>(start.size());
-  const Context context = make_context();
-  const Vector u(N_VNew_Serial(n, context.get())), one(N_VNew_Serial(n, context.get())),
+  const sundials::Context context = sundials::make_context();
+  const sundials::Vector u(N_VNew_Serial(n, context.get())), one(N_VNew_Serial(n, context.get())),
       constraints(N_VNew_Serial(n, context.get()));
   values(u.get()) = start;
   N_VConst(1.0, one.get());
   constexpr double kPositive = 2, kFree = 0;
   for (Eigen::Index i = 0; i < n; ++i)
     values(constraints.get())[i] = !options.positive.empty() && options.positive[i] ? kPositive : kFree;
-  const Matrix matrix(SUNDenseMatrix(n, n, context.get()));
-  const LinearSolver solver(SUNLinSol_Dense(u.get(), matrix.get(), context.get()));
-  const std::unique_ptr<void, ReleaseKinsol> kinsol(KINCreate(context.get()));
+  const sundials::Matrix matrix(SUNDenseMatrix(n, n, context.get()));
+  const sundials::LinearSolver solver(SUNLinSol_Dense(u.get(), matrix.get(), context.get()));
+  const Kinsol kinsol(KINCreate(context.get()));
   void* k = kinsol.get();
   check(KINInit(k, function, u.get()));
   check(KINSetErrHandlerFn(k, keep_message, &message));

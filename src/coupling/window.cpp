@@ -16,7 +16,6 @@ control::Airframe airframe(const body::Vehicle& vehicle, const std::vector<contr
 }
 
 constexpr double kLeastMotion = 1e-6;
-constexpr double kSameTime = 1e-12;  // times this close, relative to themselves, are one
 
 }  // namespace
 

@@ -24,6 +24,9 @@ struct VehicleModel {
   std::vector<control::RotorModel> rotors;  ///< what the controller knows of them, in the vehicle's order
 };
 
+/// Times this close, relative to themselves, are one.
+constexpr double kSameTime = 1e-12;
+
 class Window {
  public:
   /// UserError for what cannot be: keys of the vehicle are named under "body.", those of the controller "controller.".
