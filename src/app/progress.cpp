@@ -21,8 +21,9 @@ std::string clock_text(double seconds) {
 std::string progress_line(const StepReport& report, double fraction, double elapsed_s) {
   const std::string left = fraction > 0 ? clock_text(elapsed_s * (1 - fraction) / fraction) : "?";
   const std::string coupling = report.coupling > 0 ? fmt::format("  coupling {}", report.coupling) : "";
-  return fmt::format("step {:>6}  t {:<11.6g} s  {:>5.1f} %  left {}  newton {}  krylov {}{}", report.step,
-                     report.time_s, 100 * fraction, left, report.newton, report.krylov, coupling);
+  const std::string aircraft = report.aircraft.empty() ? "" : "  " + report.aircraft;
+  return fmt::format("step {:>6}  t {:<11.6g} s  {:>5.1f} %  left {}  newton {}  krylov {}{}{}", report.step,
+                     report.time_s, 100 * fraction, left, report.newton, report.krylov, coupling, aircraft);
 }
 
 Progress::Progress(double begin_s, double end_s, MPI_Comm comm, std::FILE* out)

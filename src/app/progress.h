@@ -13,6 +13,7 @@ struct StepReport {
   double time_s = 0;
   int newton = 0, krylov = 0;  ///< iterations of this step
   int coupling = 0;            ///< 0: there is no coupling
+  std::string aircraft = {};   ///< attitude and thrust, where there are any
 };
 
 /// `fraction` of the run is done after `elapsed_s`.

@@ -6,6 +6,7 @@
 #include "app/flight.h"
 #include "app/flow_fields.h"
 #include "app/flow_setup.h"
+#include "app/vehicle.h"
 #include "base/collective.h"
 #include "base/errors.h"
 #include "io/file.h"
@@ -68,6 +69,8 @@ Loads Run::append_history(StepRecord record) {
   const auto fluxes = euler_.patch_fluxes(solver_.state().q, now);
   record.rotors = rotors_->step(solver_, fluxes, now);
   audit_.add(solver_, fluxes);
+  thrust_N_.reset();
+  for (const RotorLoads& rotor : record.rotors) thrust_N_ = thrust_N_.value_or(0) + rotor.thrust_N;
   return history_->append(solver_, mover_->body(), fluxes, record);
 }
 
@@ -91,6 +94,16 @@ void Run::step(double dt_s, double end_s) {
   if (case_.output.fields_interval > 0 && state.step % case_.output.fields_interval == 0) write_fields();
   if (state.step % case_.output.checkpoint_interval == 0) write_checkpoint();
   summary_.output(MPI_Wtime() - solved);
+}
+
+std::string Run::aircraft() const {
+  std::string text;
+  if (is_dynamic(case_)) {
+    const Attitude a = attitude(mover_->body().R);
+    text = fmt::format("roll {:.2f}  pitch {:.2f}  yaw {:.2f} deg", a.roll_deg, a.pitch_deg, a.yaw_deg);
+  }
+  if (thrust_N_) text += fmt::format("{}thrust {:.4g} N", text.empty() ? "" : "  ", *thrust_N_);
+  return text;
 }
 
 void Run::give_up(double dt) {

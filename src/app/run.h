@@ -22,6 +22,8 @@ class Run {
   const ZoneTree& zones() const { return zones_; }
   MPI_Comm comm() const { return mesh_.comm; }
   const std::filesystem::path& directory() const { return directory_; }
+  /// Attitude of a dynamic body and thrust of the rotors at the current state; empty without either.
+  std::string aircraft() const;
   double time_s() const { return solver_.state().time * scales_.time(); }
 
   /// Sets the flow: from the folder's newest checkpoint (restart), from that of time.start_from, or as [fluid.initial]
@@ -68,6 +70,7 @@ class Run {
   std::optional<io::FieldWriter> fields_;
   coupling::StepControl control_;
   Mover::Result last_;
+  std::optional<double> thrust_N_;  ///< of all rotors, each along its axis; none without rotors
   bool saved_ = false;
   long fields_step_ = -1;
 };

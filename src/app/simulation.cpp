@@ -50,7 +50,7 @@ int run_simulation(const Case& c, const RunOptions& options) {
     while (!finished() && !(signal = agreed_signal(run.comm()))) {
       run.step(dt, end);
       progress.report({static_cast<int>(state.step), run.time_s(), run.report().newton(), run.report().krylov(),
-                       run.coupling_iterations()});
+                       run.coupling_iterations(), run.aircraft()});
     }
   }
   run.finish(!signal);

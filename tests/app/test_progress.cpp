@@ -25,6 +25,7 @@ TEST_CASE("progress: plain lines where there is no terminal, few of them, the la
 TEST_CASE("progress: coupling iterations where there are any", "[app]") {
   CHECK_THAT(app::progress_line({1, 1, 3, 25, 4}, 0.5, 1), Catch::EndsWith("newton 3  krylov 25  coupling 4"));
   CHECK_THAT(app::progress_line({1, 1, 3, 25}, 0.5, 1), Catch::EndsWith("newton 3  krylov 25"));
+  CHECK_THAT(app::progress_line({1, 1, 3, 25, 4, "pitch -5 deg"}, 0.5, 1), Catch::EndsWith("coupling 4  pitch -5 deg"));
 }
 
 TEST_CASE("progress: time left", "[app]") {
