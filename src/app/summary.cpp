@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/memory.h"
 #include "base/version.h"
 #include "io/results.h"
 
@@ -18,6 +19,12 @@ double total_mass(const mesh::Mesh& mesh, Vec state) {
   return sum;
 }
 
+/// GB over all ranks.
+double sum_GB(double bytes, MPI_Comm comm) {
+  MPI_Allreduce(MPI_IN_PLACE, &bytes, 1, MPI_DOUBLE, MPI_SUM, comm);
+  return 1e-9 * bytes;
+}
+
 std::vector<double> list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
@@ -30,6 +37,7 @@ void Summary::start(const fluid::FlowSolver& solver, double setup_s) {
 
 void Summary::step(const fluid::StepReport& report, int coupling, const fluid::FlowState& state, const Loads& loads,
                    double seconds) {
+  if (memory_ == 0) memory_ = resident_bytes();
   solve_s_ += seconds;
   newton_ += report.newton();
   krylov_ += report.krylov();
@@ -57,6 +65,9 @@ void Summary::write(const std::filesystem::path& directory, const fluid::FlowSol
   j["cells"] = mesh_.n_global;
   j["ranks"] = ranks;
   j["wall_s"] = {{"total", wall_s}, {"setup", setup_s_}, {"fluid", solve_s_}, {"output", output_s_}};
+  j["memory_GB"] = {{"first_step", sum_GB(memory_, mesh_.comm)},
+                    {"end", sum_GB(resident_bytes(), mesh_.comm)},
+                    {"peak", sum_GB(peak_resident_bytes(), mesh_.comm)}};
   j["seconds_per_step"] = solve_s_ * per_step;
   j["newton_per_step"] = double(newton_) * per_step;
   j["krylov_per_step"] = double(krylov_) * per_step;

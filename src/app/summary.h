@@ -25,6 +25,7 @@ class Summary {
   const mesh::Mesh& mesh_;
   long first_step_ = 0;
   double mass_ = 0;  ///< at the start of this run
+  double memory_ = 0;  ///< of this rank after the first step, bytes
   double setup_s_ = 0, solve_s_ = 0, output_s_ = 0;
   long rejected_ = 0, newton_ = 0, krylov_ = 0, coupling_ = 0, averaged_ = 0;
   Loads sum_;

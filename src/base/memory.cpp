@@ -10,13 +10,21 @@
 
 namespace windhover {
 
-double resident_bytes() {
+namespace {
+
+double status_bytes(const std::string& entry) {
   std::ifstream status("/proc/self/status");
   double kilobytes = 0;
   for (std::string line; std::getline(status, line);)
-    if (line.rfind("VmRSS:", 0) == 0) std::istringstream(line.substr(6)) >> kilobytes;
+    if (line.starts_with(entry)) std::istringstream(line.substr(entry.size())) >> kilobytes;
   return 1024 * kilobytes;
 }
+
+}  // namespace
+
+double resident_bytes() { return status_bytes("VmRSS:"); }
+
+double peak_resident_bytes() { return status_bytes("VmHWM:"); }
 
 void use_large_pages(const void* data, std::size_t bytes) {
 #ifdef __linux__

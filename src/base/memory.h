@@ -4,8 +4,9 @@
 
 namespace windhover {
 
-/// Resident bytes of this rank now.
+/// Resident bytes of this rank, now and at most so far.
 double resident_bytes();
+double peak_resident_bytes();
 
 /// Gives what has been freed back to the system (MPI libraries make malloc keep it).
 void release_free_memory();
