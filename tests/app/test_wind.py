@@ -1,4 +1,5 @@
 """Wind that changes: the loads are those on a body that moves the other way in still air."""
+import json
 import math
 import unittest
 
@@ -60,6 +61,20 @@ newton_tolerance = 1e-9
         forces = [math.hypot(*f) for f in self.forces("ramp")]
         self.assertLess(max(forces[:3]), 1e-6)
         self.assertGreater(min(forces[3:7]), 0.1)
+
+    def test_momentum_audit(self):
+        """What the air gains is what passes through the boundaries, up to the rule for the integral over time: order 2."""
+        errors = []
+        for fine in (1, 2, 4):
+            self.run_case(f"audit_{fine}", f"wind.change=[{{kind='gust', duration_s={DURATION}, velocity_m_s={list(PEAK)}}}]",
+                          f"time.step_s={1e-3 / fine}", f"time.steps={16 * fine}")
+            audit = json.loads((self.folder / f"audit_{fine}/summary.json").read_text())["momentum"]
+            self.assertGreater(math.hypot(*audit["walls_Ns"]), 0.5)
+            self.assertGreater(math.hypot(*audit["air_Ns"]), 1)
+            errors.append(audit["error"])
+        self.assertLess(errors[-1], 5e-4)
+        for coarse, fine in zip(errors, errors[1:]):
+            self.assertGreater(math.log2(coarse / fine), 1.8)
 
     def test_gust_needs_a_duration(self):
         error = self.call("run", "case.toml", "--set", "wind.change=[{kind='gust'}]", code=2).stderr
