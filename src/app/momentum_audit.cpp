@@ -8,7 +8,8 @@ Vec3 total_momentum(const fluid::FlowSolver& solver) {
   const double* q = nullptr;
   petsc(VecGetArrayRead(solver.state().q, &q));
   Vec3 sum = Vec3::Zero();
-  for (mesh::Index c = 0; c < mesh.n_owned; ++c) sum += mesh.volume[c] * Eigen::Map<const Vec3>(q + fluid::kVariables * c + 1);
+  for (mesh::Index c = 0; c < mesh.n_owned; ++c)
+    sum += mesh.volume[c] * Eigen::Map<const Vec3>(q + fluid::kVariables * c + 1);
   petsc(VecRestoreArrayRead(solver.state().q, &q));
   MPI_Allreduce(MPI_IN_PLACE, sum.data(), 3, MPI_DOUBLE, MPI_SUM, mesh.comm);
   return sum;

@@ -20,7 +20,8 @@ class MomentumAudit {
 
  private:
   struct Forces {
-    Vec3 walls = Vec3::Zero(), outer = Vec3::Zero();  ///< momentum that leaves the air per unit time; outer: all other boundaries
+    Vec3 walls = Vec3::Zero(),
+         outer = Vec3::Zero();  ///< momentum that leaves the air per unit time; outer: all other boundaries
   };
   Forces forces(const fluid::FlowSolver& solver, const std::vector<fluid::PatchFlux>& fluxes) const;
 

@@ -2,9 +2,9 @@
 #pragma once
 #include <optional>
 
-#include "app/momentum_audit.h"
 #include "app/flow_checkpoint.h"
 #include "app/history.h"
+#include "app/momentum_audit.h"
 #include "app/mover.h"
 #include "app/rotor_output.h"
 #include "app/summary.h"

@@ -51,7 +51,12 @@ using Motor = std::variant<ServoMotor, TorqueMotor>;
 
 /// A motor without current: only its losses brake the rotor.
 inline TorqueMotor without_current(double friction, double viscous_friction) {
-  return {.torque_constant = 0, .resistance = 1, .supply = 0, .friction = friction, .viscous_friction = viscous_friction, .governor = 0};
+  return {.torque_constant = 0,
+          .resistance = 1,
+          .supply = 0,
+          .friction = friction,
+          .viscous_friction = viscous_friction,
+          .governor = 0};
 }
 
 }  // namespace windhover::body

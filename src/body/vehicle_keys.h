@@ -30,7 +30,9 @@ void declare(V& v, RotorOptions& o) {
   v.key("spin_axis", o.spin_axis, {.doc = "the rotor turns right-handed about it (body axes); any length"});
   v.key("speed_rad_s", o.speed_rad_s, {.doc = "speed at t = 0"});
   v.key("angle_rad", o.angle_rad, {.doc = "angle at t = 0"});
-  v.key("off_at_s", o.off_at_s, {.doc = "the motor has no current from then on: air and friction turn the rotor; when missing, never", .min = 0});
+  v.key(
+      "off_at_s", o.off_at_s,
+      {.doc = "the motor has no current from then on: air and friction turn the rotor; when missing, never", .min = 0});
   v.section("motor", o.motor, "What turns the rotor.");
 }
 

@@ -34,8 +34,10 @@ void declare(V& v, WaypointOptions& o) {
   v.key("time_s", o.time_s, {.doc = "time from which it holds", .min = 0});
   v.key("position_m", o.position_m, {.doc = "where to be, inertial axes"});
   v.key("yaw_deg", o.yaw_deg, {.doc = "heading, clockwise seen from above"});
-  v.key("velocity_m_s", o.velocity_m_s,
-        {.doc = "velocity to fly with, besides that for which a missing distance asks; for axes whose position gain is 0"});
+  v.key(
+      "velocity_m_s", o.velocity_m_s,
+      {.doc =
+           "velocity to fly with, besides that for which a missing distance asks; for axes whose position gain is 0"});
 }
 
 template <class V>

@@ -20,8 +20,9 @@ void declare(V& v, TrimOptions& o) {
          .max = 0.5});
   v.key(
       "mean_tolerance", o.mean_tolerance,
-      {.doc = "change of the means over the last third of a try's windows, on the same scale, from those over the third before, below "
-              "which they count as settled; far from balance a quarter of what is left will do",
+      {.doc =
+           "change of the means over the last third of a try's windows, on the same scale, from those over the third before, below "
+           "which they count as settled; far from balance a quarter of what is left will do",
        .above = 0,
        .max = 0.5});
   v.key("window_revolutions", o.window_revolutions,

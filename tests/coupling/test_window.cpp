@@ -127,7 +127,8 @@ TEST_CASE("window: a motor that goes off leaves its rotor to the air, and the bo
   CHECK_FALSE(window.responding_loads(s)[body::LoadLayout::rotor + 1]);
   s = window.advance(s, load, 0.013);
   const auto absolute = [&] {
-    return window.rotor_speed(s, 1) + window.kinematics(s).omega_WB_B.dot(window.vehicle().vehicle().rotors[1].spin_axis_B);
+    return window.rotor_speed(s, 1) +
+           window.kinematics(s).omega_WB_B.dot(window.vehicle().vehicle().rotors[1].spin_axis_B);
   };
   const double before = absolute();
   CHECK(window.responding_loads(s)[body::LoadLayout::rotor + 1]);
