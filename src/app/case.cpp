@@ -107,8 +107,7 @@ void validate(const Case& c, const toml::table& file) {
   if (!c.mesh.parameters.empty() && c.mesh.geometry.empty())
     throw UserError("{}: mesh.parameters: is of no use without mesh.geometry", io::place(file, "mesh.parameters"));
   for (const auto& name : c.body.walls) {
-    const auto there = c.fluid.boundary.find(name);
-    if (there != c.fluid.boundary.end() && there->second == "wall") continue;
+    if (is_wall(c, name)) continue;
     std::vector<std::string> walls;
     for (const auto& [surface, condition] : c.fluid.boundary)
       if (condition == "wall") walls.push_back(surface);
@@ -151,6 +150,11 @@ toml::table lay_over(const std::string& like, const fs::path& file, toml::table&
 }
 
 }  // namespace
+
+bool is_wall(const Case& c, const std::string& surface) {
+  const auto there = c.fluid.boundary.find(surface);
+  return there != c.fluid.boundary.end() && there->second == "wall";
+}
 
 Case load_case(const fs::path& file, const std::vector<std::string>& overrides) {
   Case c;

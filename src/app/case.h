@@ -178,6 +178,9 @@ std::string effective_case(const Case& c);
 /// docs/case-file.md: every key with default, range and meaning.
 std::string case_file_documentation();
 
+/// A surface of the mesh that [fluid.boundary] calls a wall.
+bool is_wall(const Case& c, const std::string& surface);
+
 /// The prescribed motion of the root zone in SI units and radians.
 mesh::Motion body_motion(const Case& c);
 

@@ -123,8 +123,7 @@ std::vector<io::FieldBlock> flow_fields(const Case& c, fluid::FlowSolver& solver
   std::vector<io::FieldBlock> blocks;
   for (auto& zone : zones) blocks.push_back(zone.take());
   for (size_t p = 0; p < mesh.patches.size(); ++p) {
-    const auto condition = c.fluid.boundary.find(mesh.patches[p].name);
-    if (condition != c.fluid.boundary.end() && condition->second == "wall")
+    if (is_wall(c, mesh.patches[p].name))
       blocks.push_back(patch_block(solver, frames, static_cast<int>(p), air));
   }
   return blocks;

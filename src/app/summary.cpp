@@ -9,15 +9,7 @@
 namespace windhover::app {
 namespace {
 
-double total_mass(const mesh::Mesh& mesh, Vec state) {
-  const double* q = nullptr;
-  petsc(VecGetArrayRead(state, &q));
-  double sum = 0;
-  for (mesh::Index c = 0; c < mesh.n_owned; ++c) sum += mesh.volume[c] * q[fluid::kVariables * c];
-  petsc(VecRestoreArrayRead(state, &q));
-  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, mesh.comm);
-  return sum;
-}
+double total_mass(const fluid::FlowSolver& solver) { return solver.euler().total(solver.state().q)[0]; }
 
 /// GB over all ranks.
 double sum_GB(double bytes, MPI_Comm comm) {
@@ -25,13 +17,11 @@ double sum_GB(double bytes, MPI_Comm comm) {
   return 1e-9 * bytes;
 }
 
-std::vector<double> list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
 }  // namespace
 
 void Summary::start(const fluid::FlowSolver& solver, double setup_s) {
   first_step_ = solver.state().step;
-  mass_ = total_mass(mesh_, solver.state().q);
+  mass_ = total_mass(solver);
   setup_s_ = setup_s;
 }
 
@@ -74,10 +64,10 @@ void Summary::write(const std::filesystem::path& directory, const fluid::FlowSol
   if (coupling_ > 0) j["coupling_iterations_per_step"] = double(coupling_) * per_step;
   j["averages"] = {{"from_s", case_.output.average_from_s},
                    {"steps", averaged_},
-                   {"force_N", list(per_average * sum_.force_N)},
-                   {"moment_Nm", list(per_average * sum_.moment_Nm)}};
+                   {"force_N", io::list(per_average * sum_.force_N)},
+                   {"moment_Nm", io::list(per_average * sum_.moment_Nm)}};
   if (!rotors.empty()) j["rotors"] = rotors;
-  j["mass_drift"] = total_mass(mesh_, solver.state().q) / mass_ - 1;
+  j["mass_drift"] = total_mass(solver) / mass_ - 1;
   j["momentum"] = momentum;
   io::write_json(directory / "summary.json", j, mesh_.comm);
 }

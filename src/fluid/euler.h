@@ -1,6 +1,7 @@
 // The Euler equations on a rigidly moving mesh: rate of change of every cell, its derivative, its first-order Jacobian,
 // and the loads on the boundaries. Nondimensional throughout.
 #pragma once
+#include <array>
 #include <map>
 #include <optional>
 #include <span>
@@ -70,6 +71,9 @@ class EulerOperator {
 
   /// jacobian = scale · d(first-order residual)/dq + diagonal(mass_scale · volume).
   void first_order_jacobian(Vec q, const Frames& frames, double scale, double mass_scale, BlockJacobian& jacobian);
+
+  /// Sums over the whole domain of volume times mass, momentum and energy. Collective.
+  std::array<double, kVariables> total(Vec q) const;
 
   /// One entry per mesh patch.
   std::vector<PatchFlux> patch_fluxes(Vec q, const Frames& frames);

@@ -17,6 +17,17 @@ State<double> lane(const State<Pack>& s, int i) { return {s.rho[i], s.u[i], s.v[
 
 }  // namespace
 
+std::array<double, kVariables> EulerOperator::total(Vec state) const {
+  const double* q = nullptr;
+  petsc(VecGetArrayRead(state, &q));
+  std::array<double, kVariables> sum{};
+  for (mesh::Index c = 0; c < mesh_.n_owned; ++c)
+    for (int k = 0; k < kVariables; ++k) sum[k] += mesh_.volume[c] * q[kVariables * c + k];
+  petsc(VecRestoreArrayRead(state, &q));
+  MPI_Allreduce(MPI_IN_PLACE, sum.data(), kVariables, MPI_DOUBLE, MPI_SUM, mesh_.comm);
+  return sum;
+}
+
 std::vector<PatchFlux> EulerOperator::patch_fluxes(Vec q, const Frames& frames) {
   prepare(q, frames);
   const int r = static_cast<int>(model_.reconstruction);
