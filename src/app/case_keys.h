@@ -183,9 +183,9 @@ void declare(V& v, TimeOptions& o) {
   v.key("damping", o.damping,
         {.doc = "share w of BDF2 in crank_nicolson, which alone lets an oscillation from step to step go on for ever; "
                 "what is stiff shrinks by (1 - w)/(1 + w) a step; second order for any w", .min = 0, .max = 1});
-  v.key("start_steps", o.start_steps, {.doc = "backward-Euler steps at the start, for impulsive starts; none with start_from", .min = 0});
+  v.key("start_steps", o.start_steps, {.doc = "backward-Euler steps at the start, for impulsive starts; none with start_from in the same wind", .min = 0});
   v.key("start_from", o.start_from,
-        {.doc = "folder of a run or trim on the same mesh from whose newest checkpoint flow and vehicle start, at t = 0"});
+        {.doc = "folder of a run or trim on the same mesh from whose newest checkpoint flow and vehicle start, at t = 0; the air gains what the wind differs"});
 }
 
 template <class V>

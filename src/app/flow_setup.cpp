@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/wind.h"
 #include "base/errors.h"
 
 namespace windhover::app {
@@ -42,7 +43,8 @@ fluid::FlowOptions flow_options(const Case& c) {
   const SolverOptions& s = c.solver;
   fluid::FlowOptions o;
   o.scheme = &fluid::time_scheme(c.time.scheme);
-  o.start_steps = c.time.start_from.empty() ? c.time.start_steps : 0;
+  const bool goes_on = !c.time.start_from.empty() && wind_jump(c).isZero();
+  o.start_steps = goes_on ? 0 : c.time.start_steps;
   o.damping = c.time.damping;
   o.extrapolate = s.extrapolate;
   o.jacobian_lag = s.jacobian_lag;

@@ -7,6 +7,7 @@
 #include "app/flow_fields.h"
 #include "app/flow_setup.h"
 #include "app/vehicle.h"
+#include "app/wind.h"
 #include "base/collective.h"
 #include "base/errors.h"
 #include "io/file.h"
@@ -43,6 +44,9 @@ std::vector<double> Run::begin(bool restart) {
     const Memory memory = checkpoint_.read(case_.time.start_from, state);
     state.step = 0;
     state.time = 0;
+    const Vec3 jump = wind_jump(case_) / scales_.velocity;
+    fluid::add_velocity(jump, state.q);
+    fluid::add_velocity(jump, state.previous);
     if (!memory.step.empty()) control_.restore(memory.step);  // no first step: the flow is under way
     return memory.vehicle;
   }

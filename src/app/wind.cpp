@@ -17,6 +17,13 @@ Vec3 wind_change(const WindOptions& wind, double t) {
   return sum;
 }
 
+Vec3 wind_jump(const Case& c) {
+  const std::filesystem::path before = std::filesystem::path(c.time.start_from) / "case.toml";
+  if (c.time.start_from.empty() || !exists(before))
+    return Vec3::Zero();  // a restart does not need that folder any more
+  return c.wind.velocity_m_s - load_case(before, {}).wind.velocity_m_s;
+}
+
 double next_wind_change(const WindOptions& wind, double t) {
   double next = std::numeric_limits<double>::infinity();
   for (const WindChangeOptions& change : wind.change)

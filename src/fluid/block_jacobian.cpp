@@ -103,7 +103,6 @@ BlockJacobian::Parts BlockJacobian::parts() const {
 }
 
 void BlockJacobian::begin() {
-  petsc(MatSetUnfactored(parts().inside));  // a preconditioner may have factored it in place
   petsc(MatZeroEntries(matrix_));
   petsc(MatSeqBAIJGetArray(parts().inside, &inside_));
   if (parts().outside) petsc(MatSeqBAIJGetArray(parts().outside, &outside_));

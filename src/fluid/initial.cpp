@@ -71,4 +71,17 @@ void set_initial(const EulerOperator& euler, const Frames& frames, const Initial
   petsc(VecRestoreArrayWrite(q, &values));
 }
 
+void add_velocity(const Vec3& velocity, Vec q) {
+  PetscInt n = 0;
+  double* values = nullptr;
+  petsc(VecGetLocalSize(q, &n));
+  petsc(VecGetArray(q, &values));
+  for (double* cell = values; cell < values + n; cell += kVariables) {
+    Eigen::Map<Vec3> momentum(cell + 1);
+    cell[4] += velocity.dot(momentum) + 0.5 * cell[0] * velocity.squaredNorm();
+    momentum += cell[0] * velocity;
+  }
+  petsc(VecRestoreArray(q, &values));
+}
+
 }  // namespace windhover::fluid

@@ -22,4 +22,7 @@ InitialState vortex_state(const mesh::Vec3& center, double strength, double core
 /// Sets q to means over the cells (by quadrature of their tetrahedra), in the frames given.
 void set_initial(const EulerOperator& euler, const Frames& frames, const InitialState& initial, Vec q);
 
+/// Adds one velocity to all of the air.
+void add_velocity(const mesh::Vec3& velocity, Vec q);
+
 }  // namespace windhover::fluid

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fluid/line_search.h"
+
 namespace windhover::fluid {
 namespace {
 
@@ -71,9 +73,9 @@ NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options) :
   petsc(SNESSetType(snes_, SNESNEWTONLS));
   petsc(SNESSetConvergenceTest(snes_, test_convergence, this, nullptr));
   petsc(SNESSetMaxLinearSolveFailures(snes_, options_.max_iterations));  // Newton judges, not the inner solve
+  use_parabolic_backtracking(snes_);
   SNESLineSearch search = nullptr;
   petsc(SNESGetLineSearch(snes_, &search));
-  petsc(SNESLineSearchSetType(search, SNESLINESEARCHBT));
   petsc(SNESLineSearchSetPreCheck(search, limit_update, this));
   if (options_.eisenstat_walker) {
     petsc(SNESKSPSetUseEW(snes_, PETSC_TRUE));

@@ -1,13 +1,81 @@
 #include "fluid/preconditioner.h"
 
+#include <optional>
 #include <set>
 
 #include "base/errors.h"
+#include "fluid/block_ilu.h"
 
 namespace windhover::fluid {
 namespace {
 
-void set_sub_ilu(PC pc, int levels, bool in_place) {
+/// Incomplete factors of this rank's own part of the matrix.
+struct OwnIlu {
+  int levels;
+  std::optional<BlockIlu> factors;
+};
+
+OwnIlu& own_ilu(PC pc) {
+  void* context = nullptr;
+  petsc(PCShellGetContext(pc, &context));
+  return *static_cast<OwnIlu*>(context);
+}
+
+PetscErrorCode factor_own(PC pc) {
+  return CallbackGuard().run([pc] {
+    OwnIlu& ilu = own_ilu(pc);
+    Mat matrix = nullptr, inside = nullptr;
+    petsc(PCGetOperators(pc, nullptr, &matrix));
+    PetscBool parallel = PETSC_FALSE;
+    petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(matrix), MATMPIBAIJ, &parallel));
+    if (parallel)
+      petsc(MatMPIBAIJGetSeqBAIJ(matrix, &inside, nullptr, nullptr));
+    else
+      inside = matrix;
+    if (!ilu.factors) {
+      PetscInt n = 0;
+      const PetscInt *start = nullptr, *column = nullptr;
+      PetscBool done = PETSC_FALSE;
+      petsc(MatGetRowIJ(inside, 0, PETSC_FALSE, PETSC_TRUE, &n, &start, &column, &done));
+      ilu.factors.emplace(n, start, column, ilu.levels);
+      petsc(MatRestoreRowIJ(inside, 0, PETSC_FALSE, PETSC_TRUE, &n, &start, &column, &done));
+    }
+    PetscScalar* blocks = nullptr;
+    petsc(MatSeqBAIJGetArray(inside, &blocks));
+    const bool regular = ilu.factors->factor(blocks);
+    petsc(MatSeqBAIJRestoreArray(inside, &blocks));
+    petsc(PCSetFailedReason(pc, regular ? PC_NOERROR : PC_FACTOR_NUMERIC_ZEROPIVOT));
+  });
+}
+
+PetscErrorCode apply_own(PC pc, Vec b, Vec x) {
+  return CallbackGuard().run([=] {
+    const double* from = nullptr;
+    double* to = nullptr;
+    petsc(VecGetArrayRead(b, &from));
+    petsc(VecGetArrayWrite(x, &to));
+    own_ilu(pc).factors->solve(from, to);
+    petsc(VecRestoreArrayWrite(x, &to));
+    petsc(VecRestoreArrayRead(b, &from));
+  });
+}
+
+PetscErrorCode destroy_own(PC pc) {
+  return CallbackGuard().run([pc] { delete &own_ilu(pc); });
+}
+
+void set_up_ilu(PC pc, int levels, int) {
+  petsc(PCSetType(pc, PCSHELL));
+  petsc(PCShellSetName(pc, "block ILU in single precision"));
+  petsc(PCShellSetContext(pc, new OwnIlu{levels, {}}));
+  petsc(PCShellSetSetUp(pc, factor_own));
+  petsc(PCShellSetApply(pc, apply_own));
+  petsc(PCShellSetDestroy(pc, destroy_own));
+}
+
+void set_up_asm(PC pc, int levels, int) {
+  petsc(PCSetType(pc, PCASM));
+  petsc(PCASMSetOverlap(pc, 1));
   const char* prefix = nullptr;
   petsc(PCGetOptionsPrefix(pc, &prefix));
   const std::string p = prefix ? prefix : "";
@@ -23,18 +91,6 @@ void set_sub_ilu(PC pc, int levels, bool in_place) {
   };
   set_default("sub_pc_type", "ilu");
   set_default("sub_pc_factor_levels", std::to_string(levels));
-  set_default("sub_pc_factor_in_place", in_place ? "true" : "false");
-}
-
-void set_up_ilu(PC pc, int levels, int) {
-  petsc(PCSetType(pc, PCBJACOBI));
-  set_sub_ilu(pc, levels, levels == 0);  // the factor has the Jacobian's pattern and takes its place: a fifth less memory
-}
-
-void set_up_asm(PC pc, int levels, int) {
-  petsc(PCSetType(pc, PCASM));
-  petsc(PCASMSetOverlap(pc, 1));
-  set_sub_ilu(pc, levels, false);
 }
 
 void set_up_point_block_jacobi(PC pc, int, int) { petsc(PCSetType(pc, PCPBJACOBI)); }

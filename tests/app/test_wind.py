@@ -56,6 +56,14 @@ newton_tolerance = 1e-9
                               f"rate_m_s={math.hypot(*PEAK)}}}]")
         self.check_same_forces("step", "wind")
 
+    def test_other_wind_than_where_the_flow_began(self):
+        """Air at rest that is taken over into a wind is air in that wind."""
+        self.run_case("still", "time.steps=2")
+        wind = f"wind.velocity_m_s={list(PEAK)}"
+        self.run_case("fresh", wind, "time.start_steps=2")
+        self.run_case("taken_over", wind, "time.start_steps=2", f"time.start_from={self.folder / 'still'}")
+        self.check_same_forces("taken_over", "fresh")
+
     def test_ramp_starts_when_told(self):
         self.run_case("ramp", f"wind.change=[{{start_s={START}, duration_s=0.004, velocity_m_s={list(PEAK)}}}]")
         forces = [math.hypot(*f) for f in self.forces("ramp")]

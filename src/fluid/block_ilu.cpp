@@ -1,0 +1,193 @@
+#include "fluid/block_ilu.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "base/memory.h"
+#include "base/petsc.h"
+// needs PETSc's types before it
+#include <petsc/private/kernels/blockinvert.h>
+
+namespace windhover::fluid {
+namespace {
+
+constexpr int kSize = 5, kEntries = kSize * kSize, kPadded = 8;
+
+/// A column of a block and three numbers after it that mean nothing.
+typedef float Column __attribute__((vector_size(32)));
+
+Column load(const float* p) {
+  Column c;
+  std::memcpy(&c, p, sizeof c);
+  return c;
+}
+void store(const Column& c, float* p) { std::memcpy(p, &c, sizeof c); }
+
+/// Blocks, and room for what is read after the last.
+std::unique_ptr<float[]> allocate_blocks(size_t count) {
+  auto blocks = std::make_unique<float[]>(count * kEntries + kPadded);
+  use_large_pages(blocks.get(), count * kEntries * sizeof(float));
+  return blocks;
+}
+
+/// block · x
+inline Column times(const float* block, const float* x) {
+  Column sum = load(block) * x[0];
+  for (int k = 1; k < kSize; ++k) sum += load(block + kSize * k) * x[k];
+  return sum;
+}
+
+/// A block whose columns are padded to whole registers.
+struct Padded {
+  Column column[kSize];
+};
+
+void pack(const Padded& from, float* to) {
+  for (int k = 0; k < kSize; ++k) std::memcpy(to + kSize * k, &from.column[k], kSize * sizeof(float));
+}
+
+/// False: has no inverse.
+bool invert(const Padded& block, float* to) {
+  double inverse[kEntries], work[kEntries];
+  PetscInt pivots[kSize];
+  PetscBool singular = PETSC_FALSE;
+  for (int j = 0; j < kSize; ++j)
+    for (int i = 0; i < kSize; ++i) inverse[kSize * j + i] = block.column[j][i];
+  petsc(PetscKernel_A_gets_inverse_A_5(inverse, pivots, work, 0, PETSC_TRUE, &singular));
+  std::copy_n(inverse, kEntries, to);
+  return !singular && std::all_of(inverse, inverse + kEntries, [](double x) { return std::isfinite(x); });
+}
+
+/// Fill of a row while its pattern is found: a sorted chain of columns, each with its level.
+class Chain {
+ public:
+  explicit Chain(int n) : next_(n + 1), level_(n, -1), end_(n) {}
+
+  void begin() { next_[end_] = end_; }
+  /// `after`: a column of the chain before this one, or end() for its head; returns the place of this one.
+  int insert(int column, int level, int after) {
+    if (level_[column] >= 0) {
+      level_[column] = std::min(level_[column], level);
+      return column;
+    }
+    while (next_[after] < column) after = next_[after];
+    next_[column] = next_[after];
+    next_[after] = column;
+    level_[column] = level;
+    return column;
+  }
+  int first() const { return next_[end_]; }
+  int next(int column) const { return next_[column]; }
+  int end() const { return end_; }
+  int level(int column) const { return level_[column]; }
+  void forget(int column) { level_[column] = -1; }
+
+ private:
+  std::vector<int> next_, level_;
+  int end_;  ///< before the head and after the last
+};
+
+}  // namespace
+
+void BlockIlu::Triangle::allocate() { block = allocate_blocks(blocks()); }
+
+BlockIlu::BlockIlu(int n, const int* start, const int* column, int levels)
+    : n_(n), given_start_(start, start + n + 1), given_column_(column, column + start[n]) {
+  find_pattern(start, column, levels);
+  lower_.allocate();
+  upper_.allocate();
+  pivot_ = allocate_blocks(n);
+  work_.resize(static_cast<size_t>(n) * kPadded);
+}
+
+void BlockIlu::find_pattern(const int* start, const int* column, int levels) {
+  Chain chain(n_);
+  std::vector<int> upper_level;
+  for (int i = 0; i < n_; ++i) {
+    chain.begin();
+    int last = chain.end();
+    for (int at = start[i]; at < start[i + 1]; ++at) last = chain.insert(column[at], 0, last);
+    for (int k = chain.first(); k < i; k = chain.next(k)) {
+      int after = k;
+      for (size_t at = upper_.start[k]; at < upper_.start[k + 1]; ++at) {
+        const int level = chain.level(k) + upper_level[at] + 1;
+        if (level <= levels) after = chain.insert(upper_.column[at], level, after);
+      }
+    }
+    for (int j = chain.first(); j != chain.end(); j = chain.next(j)) {
+      if (j < i) lower_.column.push_back(j);
+      if (j > i) {
+        upper_.column.push_back(j);
+        upper_level.push_back(chain.level(j));
+      }
+      chain.forget(j);
+    }
+    lower_.start.push_back(lower_.column.size());
+    upper_.start.push_back(upper_.column.size());
+  }
+}
+
+bool BlockIlu::factor(const double* blocks) {
+  std::vector<Padded> row;         // of the pattern: lower part, diagonal, upper part
+  std::vector<int> place(n_, -1);  // of a column in it
+  bool regular = true;
+  for (int i = 0; i < n_; ++i) {
+    const size_t below = lower_.start[i], above = upper_.start[i];
+    const int n_below = static_cast<int>(lower_.start[i + 1] - below),
+              n_above = static_cast<int>(upper_.start[i + 1] - above);
+    row.assign(n_below + 1 + n_above, {});
+    for (int j = 0; j < n_below; ++j) place[lower_.column[below + j]] = j;
+    place[i] = n_below;
+    for (int j = 0; j < n_above; ++j) place[upper_.column[above + j]] = n_below + 1 + j;
+    for (int at = given_start_[i]; at < given_start_[i + 1]; ++at)
+      for (int c = 0; c < kSize; ++c)
+        for (int r = 0; r < kSize; ++r)
+          row[place[given_column_[at]]].column[c][r] =
+              static_cast<float>(blocks[size_t(at) * kEntries + kSize * c + r]);
+    for (int j = 0; j < n_below; ++j) {
+      const int k = lower_.column[below + j];
+      Padded factor;
+      for (int c = 0; c < kSize; ++c) {
+        factor.column[c] = row[j].column[0] * pivot_[size_t(k) * kEntries + kSize * c];
+        for (int r = 1; r < kSize; ++r)
+          factor.column[c] += row[j].column[r] * pivot_[size_t(k) * kEntries + kSize * c + r];
+      }
+      pack(factor, &lower_.block[(below + j) * kEntries]);
+      for (size_t at = upper_.start[k]; at < upper_.start[k + 1]; ++at) {
+        const int to = place[upper_.column[at]];
+        if (to < 0) continue;  // fill of a higher level
+        const float* u = &upper_.block[at * kEntries];
+        for (int c = 0; c < kSize; ++c)
+          for (int r = 0; r < kSize; ++r) row[to].column[c] -= factor.column[r] * u[kSize * c + r];
+      }
+    }
+    regular = invert(row[n_below], &pivot_[size_t(i) * kEntries]) && regular;
+    for (int j = 0; j < n_above; ++j) pack(row[n_below + 1 + j], &upper_.block[(above + j) * kEntries]);
+    for (int j = 0; j < n_below; ++j) place[lower_.column[below + j]] = -1;
+    place[i] = -1;
+    for (int j = 0; j < n_above; ++j) place[upper_.column[above + j]] = -1;
+  }
+  return regular;
+}
+
+void BlockIlu::solve(const double* b, double* x) {
+  for (int i = 0; i < n_; ++i) {
+    Column sum = {};
+    for (int k = 0; k < kSize; ++k) sum[k] = static_cast<float>(b[size_t(i) * kSize + k]);
+    for (size_t at = lower_.start[i]; at < lower_.start[i + 1]; ++at)
+      sum -= times(&lower_.block[at * kEntries], &work_[size_t(lower_.column[at]) * kPadded]);
+    store(sum, &work_[size_t(i) * kPadded]);
+  }
+  for (int i = n_ - 1; i >= 0; --i) {
+    float* y = &work_[size_t(i) * kPadded];
+    Column sum = load(y);
+    for (size_t at = upper_.start[i]; at < upper_.start[i + 1]; ++at)
+      sum -= times(&upper_.block[at * kEntries], &work_[size_t(upper_.column[at]) * kPadded]);
+    store(sum, y);
+    store(times(&pivot_[size_t(i) * kEntries], y), y);
+    for (int k = 0; k < kSize; ++k) x[size_t(i) * kSize + k] = y[k];
+  }
+}
+
+}  // namespace windhover::fluid

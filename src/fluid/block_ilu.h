@@ -1,0 +1,38 @@
+// Incomplete LU factors of a matrix of 5x5 blocks, kept and applied in single precision: a preconditioner is worth no more
+// digits, and its application costs what it takes to read the factors once.
+#pragma once
+#include <memory>
+#include <vector>
+
+namespace windhover::fluid {
+
+class BlockIlu {
+ public:
+  /// Pattern of n block rows: columns column[start[i]] to column[start[i + 1] - 1] in ascending order, the diagonal
+  /// among them. `levels` of fill: Saad, Iterative Methods for Sparse Linear Systems, 2nd ed., section 10.3.3.
+  BlockIlu(int n, const int* start, const int* column, int levels);
+
+  /// Blocks in the order of the pattern, each by columns. False: some pivot cannot be inverted.
+  bool factor(const double* blocks);
+  /// x = U⁻¹ L⁻¹ b, five values a row.
+  void solve(const double* b, double* x);
+
+ private:
+  /// Rows of blocks on one side of the diagonal.
+  struct Triangle {
+    std::vector<size_t> start{0};
+    std::vector<int> column;
+    std::unique_ptr<float[]> block;  ///< by columns, one after the other
+    size_t blocks() const { return column.size(); }
+    void allocate();
+  };
+  void find_pattern(const int* start, const int* column, int levels);
+
+  int n_;
+  std::vector<int> given_start_, given_column_;
+  Triangle lower_, upper_;          ///< L without its unit diagonal, U without its diagonal
+  std::unique_ptr<float[]> pivot_;  ///< inverses of U's diagonal blocks
+  std::vector<float> work_;         ///< eight numbers a row, of which five count
+};
+
+}  // namespace windhover::fluid

@@ -1,0 +1,115 @@
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "base/petsc.h"
+#include "fluid/block_ilu.h"
+
+using windhover::MatHandle;
+using windhover::petsc;
+using windhover::VecHandle;
+using windhover::fluid::BlockIlu;
+
+namespace {
+
+constexpr int kRows = 60;
+
+/// Blocks on a random symmetric pattern, by columns; diagonals rule, as in an implicit step.
+struct RandomMatrix {
+  std::vector<int> start{0}, column;
+  std::vector<double> blocks;
+
+  explicit RandomMatrix(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<> uniform(-1, 1);
+    std::vector<std::vector<bool>> there(kRows, std::vector<bool>(kRows, false));
+    for (int i = 0; i < kRows; ++i) {
+      there[i][i] = true;
+      for (int k = 0; k < 2; ++k) {
+        const int j = static_cast<int>(random() % kRows);
+        there[i][j] = there[j][i] = true;
+      }
+    }
+    for (int i = 0; i < kRows; ++i) {
+      for (int j = 0; j < kRows; ++j) {
+        if (!there[i][j]) continue;
+        column.push_back(j);
+        for (int k = 0; k < 25; ++k) blocks.push_back(uniform(random) + (i == j && k % 6 == 0 ? 8 : 0));
+      }
+      start.push_back(static_cast<int>(column.size()));
+    }
+  }
+
+  MatHandle petsc_matrix() const {
+    MatHandle m;
+    petsc(MatCreateSeqBAIJ(PETSC_COMM_SELF, 5, 5 * kRows, 5 * kRows, 20, nullptr, m.out()));
+    petsc(MatSetOption(m, MAT_ROW_ORIENTED, PETSC_FALSE));
+    for (int i = 0; i < kRows; ++i)
+      petsc(MatSetValuesBlocked(m, 1, &i, start[i + 1] - start[i], &column[start[i]], &blocks[25 * start[i]],
+                                INSERT_VALUES));
+    petsc(MatAssemblyBegin(m, MAT_FINAL_ASSEMBLY));
+    petsc(MatAssemblyEnd(m, MAT_FINAL_ASSEMBLY));
+    return m;
+  }
+};
+
+/// What PETSc's factors, in double precision, make of b.
+std::vector<double> petsc_solution(const RandomMatrix& matrix, const char* type, int levels,
+                                   const std::vector<double>& b) {
+  const MatHandle m = matrix.petsc_matrix();
+  VecHandle from, to;
+  std::vector<double> x(b.size());
+  petsc(VecCreateSeqWithArray(PETSC_COMM_SELF, 5, static_cast<int>(b.size()), b.data(), from.out()));
+  petsc(VecCreateSeqWithArray(PETSC_COMM_SELF, 5, static_cast<int>(x.size()), x.data(), to.out()));
+  PC pc = nullptr;
+  petsc(PCCreate(PETSC_COMM_SELF, &pc));
+  petsc(PCSetOperators(pc, m, m));
+  petsc(PCSetType(pc, type));
+  petsc(PCFactorSetMatOrderingType(pc, MATORDERINGNATURAL));
+  if (std::string(type) == PCILU) petsc(PCFactorSetLevels(pc, levels));
+  petsc(PCApply(pc, from, to));
+  petsc(PCDestroy(&pc));
+  return x;
+}
+
+double difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0, norm = 0;
+  for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]), norm += b[i] * b[i];
+  return std::sqrt(sum / norm);
+}
+
+}  // namespace
+
+TEST_CASE("Incomplete factors are PETSc's, to single precision") {
+  const RandomMatrix matrix(3);
+  std::vector<double> b(5 * kRows), x(b.size());
+  for (size_t i = 0; i < b.size(); ++i) b[i] = std::sin(1.0 + double(i));
+  std::vector<std::vector<double>> solutions;
+  for (const int levels : {0, 1, 2}) {
+    BlockIlu ilu(kRows, matrix.start.data(), matrix.column.data(), levels);
+    REQUIRE(ilu.factor(matrix.blocks.data()));
+    ilu.solve(b.data(), x.data());
+    CHECK(difference(x, petsc_solution(matrix, PCILU, levels, b)) < 1e-5);
+    solutions.push_back(x);
+  }
+  CHECK(difference(solutions[0], solutions[1]) > 1e-4);  // fill makes a difference here
+  CHECK(difference(solutions[1], solutions[2]) > 1e-4);
+  BlockIlu whole(kRows, matrix.start.data(), matrix.column.data(), kRows);
+  REQUIRE(whole.factor(matrix.blocks.data()));
+  whole.solve(b.data(), x.data());
+  CHECK(difference(x, petsc_solution(matrix, PCLU, 0, b)) < 1e-5);
+}
+
+TEST_CASE("Factors can be made again, and tell of a block that has no inverse") {
+  RandomMatrix matrix(4);
+  BlockIlu ilu(kRows, matrix.start.data(), matrix.column.data(), 1);
+  REQUIRE(ilu.factor(matrix.blocks.data()));
+  std::vector<double> b(5 * kRows, 1.0), first(b.size()), second(b.size());
+  ilu.solve(b.data(), first.data());
+  for (double& value : matrix.blocks) value *= 2;
+  REQUIRE(ilu.factor(matrix.blocks.data()));
+  ilu.solve(b.data(), second.data());
+  for (double& value : second) value *= 2;
+  CHECK(difference(second, first) < 1e-6);
+  for (int k = 0; k < 25; ++k) matrix.blocks[k] = 0;
+  if (matrix.column[0] == 0) CHECK_FALSE(ilu.factor(matrix.blocks.data()));
+}
