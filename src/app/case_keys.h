@@ -191,8 +191,8 @@ void declare(V& v, TimeOptions& o) {
 template <class V>
 void declare(V& v, SolverOptions& o) {
   v.key("preconditioner", o.preconditioner,
-        {.doc = "preconditioner; ilu and lu per rank, asm with overlap",
-         .choices = {"ilu", "asm", "point_block_jacobi", "lu", "none"}});
+        {.doc = "preconditioner; ilu per rank, asm with overlap, rrk: rational Runge-Kutta steps, rrk-multigrid: aggregation multigrid smoothed by them",
+         .choices = {"ilu", "asm", "rrk", "rrk-multigrid", "point_block_jacobi", "lu", "none"}});
   v.key("ilu_levels", o.ilu_levels, {.doc = "levels of fill of the incomplete factors", .min = 0, .max = 10});
   v.key("jacobian", o.jacobian,
         {.doc = "Jacobian products by forward differentiation or by differences", .choices = {"exact", "difference"}});

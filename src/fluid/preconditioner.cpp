@@ -5,6 +5,7 @@
 
 #include "base/errors.h"
 #include "fluid/block_ilu.h"
+#include "fluid/rrk_smoother.h"
 
 namespace windhover::fluid {
 namespace {
@@ -73,24 +74,47 @@ void set_up_ilu(PC pc, int levels, int) {
   petsc(PCShellSetDestroy(pc, destroy_own));
 }
 
+/// Options of solvers inside the preconditioner, which exist only after the matrix is known. What the user says comes
+/// first; what an earlier solver set here is not the user's word.
+void set_defaults(PC pc, std::initializer_list<std::pair<std::string, std::string>> options) {
+  static std::set<std::string> ours;
+  const char* prefix = nullptr;
+  petsc(PCGetOptionsPrefix(pc, &prefix));
+  for (const auto& [name, value] : options) {
+    const std::string option = fmt::format("-{}{}", prefix ? prefix : "", name);
+    PetscBool has = PETSC_FALSE;
+    petsc(PetscOptionsHasName(nullptr, nullptr, option.c_str(), &has));
+    if (has && !ours.contains(option)) continue;
+    ours.insert(option);
+    petsc(PetscOptionsSetValue(nullptr, option.c_str(), value.c_str()));
+  }
+}
+
 void set_up_asm(PC pc, int levels, int) {
   petsc(PCSetType(pc, PCASM));
   petsc(PCASMSetOverlap(pc, 1));
-  const char* prefix = nullptr;
-  petsc(PCGetOptionsPrefix(pc, &prefix));
-  const std::string p = prefix ? prefix : "";
-  // the sub-solvers exist only after the matrix is known; options reach them then. What an earlier solver set here is
-  // not the user's word
-  static std::set<std::string> ours;
-  const auto set_default = [&](const std::string& name, const std::string& value) {
-    PetscBool has = PETSC_FALSE;
-    petsc(PetscOptionsHasName(nullptr, p.c_str(), ("-" + name).c_str(), &has));
-    if (has && !ours.contains(p + name)) return;
-    ours.insert(p + name);
-    petsc(PetscOptionsSetValue(nullptr, ("-" + p + name).c_str(), value.c_str()));
-  };
-  set_default("sub_pc_type", "ilu");
-  set_default("sub_pc_factor_levels", std::to_string(levels));
+  set_defaults(pc, {{"sub_pc_type", "ilu"}, {"sub_pc_factor_levels", std::to_string(levels)}});
+}
+
+void set_up_rrk(PC pc, int, int) {
+  register_rrk();
+  petsc(PCSetType(pc, PCKSP));
+  set_defaults(pc, {{"ksp_ksp_type", "rrk"}, {"ksp_ksp_max_it", "3"}, {"ksp_pc_type", "pbjacobi"}});
+}
+
+void set_up_rrk_multigrid(PC pc, int, int) {
+  register_rrk();
+  petsc(PCSetType(pc, PCGAMG));
+  petsc(PCGAMGSetNSmooths(pc, 0));  // smoothed aggregation is for symmetric matrices
+  petsc(PCGAMGSetReuseInterpolation(pc, PETSC_TRUE));
+  set_defaults(pc,
+               {{"mg_levels_ksp_type", "rrk"},
+                {"mg_levels_ksp_max_it", "1"},
+                {"mg_levels_pc_type", "bjacobi"},  // of ILU(0): blocks alone do not smooth cells as flat as a rotor's
+                {"mg_coarse_ksp_type", "preonly"},
+                {"mg_coarse_pc_type", "redundant"},
+                {"mg_coarse_redundant_pc_type", "lu"},
+                {"mg_coarse_redundant_pc_factor_mat_solver_type", "umfpack"}});
 }
 
 void set_up_point_block_jacobi(PC pc, int, int) { petsc(PCSetType(pc, PCPBJACOBI)); }
@@ -114,9 +138,11 @@ void set_up_none(PC pc, int, int) { petsc(PCSetType(pc, PCNONE)); }
 
 }  // namespace
 
-const Preconditioner kPreconditioners[5] = {
+const Preconditioner kPreconditioners[7] = {
     {"ilu", true, false, set_up_ilu},
     {"asm", true, false, set_up_asm},
+    {"rrk", true, false, set_up_rrk},
+    {"rrk-multigrid", true, true, set_up_rrk_multigrid},
     {"point_block_jacobi", true, false, set_up_point_block_jacobi},
     {"lu", true, true, set_up_lu},
     {"none", false, false, set_up_none},

@@ -8,13 +8,14 @@ namespace windhover::fluid {
 
 struct Preconditioner {
   const char* name;
-  bool assembled;   ///< needs the first-order Jacobian
-  bool point_matrix;  ///< wants it entry by entry (AIJ), not in blocks
+  bool assembled;                                    ///< needs the first-order Jacobian
+  bool point_matrix;                                 ///< wants it entry by entry (AIJ), not in blocks
   void (*set_up)(PC pc, int ilu_levels, int ranks);  ///< called once; solvers' options still override
 };
 
-/// ilu (block Jacobi over ranks), asm (overlap one), point_block_jacobi, lu (UMFPACK, whole problem on every rank), none.
-extern const Preconditioner kPreconditioners[5];
+/// ilu (each rank's own part), asm (overlap one), rrk (a few rational Runge–Kutta steps), rrk-multigrid (aggregation
+/// multigrid smoothed by them, UMFPACK on the coarsest level), point_block_jacobi, lu (UMFPACK, whole problem on every rank), none.
+extern const Preconditioner kPreconditioners[7];
 
 /// UserError naming the valid ones when there is no such one.
 const Preconditioner& preconditioner(const std::string& name);
