@@ -6,7 +6,7 @@
 namespace windhover {
 namespace {
 
-constexpr std::initializer_list<int> signals = {SIGINT, SIGTERM};
+constexpr std::initializer_list<int> signals = {SIGINT, SIGTERM, SIGUSR1};
 volatile std::sig_atomic_t received = 0;
 
 extern "C" void remember_signal(int signal) {

@@ -1,4 +1,5 @@
-// SIGINT and SIGTERM ask the run to stop: the time loop looks, writes a checkpoint and leaves.
+// SIGINT, SIGTERM and SIGUSR1 ask the run to stop: the time loop looks, writes a checkpoint and leaves. SIGUSR1 is the one that mpiexec
+// hands on to its ranks at once and without killing them afterwards.
 #pragma once
 
 namespace windhover {
@@ -6,7 +7,7 @@ namespace windhover {
 /// From now on the first signal is only remembered; a second one ends the program at once.
 void catch_interrupts();
 
-/// The signal that arrived (SIGINT or SIGTERM), or 0. Ranks may differ: the loop agrees on it collectively.
+/// The signal that arrived (SIGINT, SIGTERM or SIGUSR1), or 0. Ranks may differ: the loop agrees on it collectively.
 int interrupt_signal();
 
 }  // namespace windhover
