@@ -11,6 +11,10 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
+const std::vector<std::string> kSolverColumns = {"step", "stage", "newton", "residual", "krylov", "seconds"};
+
+}  // namespace
+
 std::vector<std::string> history_columns(const Case& c) {
   std::vector<std::string> columns = {
       "step", "time_s", "x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s", "roll_deg", "pitch_deg", "yaw_deg",
@@ -21,10 +25,6 @@ std::vector<std::string> history_columns(const Case& c) {
   for (const char* column : {"newton", "krylov", "coupling_iterations", "dt_s", "wall_s"}) columns.emplace_back(column);
   return columns;
 }
-
-const std::vector<std::string> kSolverColumns = {"step", "stage", "newton", "residual", "krylov", "seconds"};
-
-}  // namespace
 
 Attitude attitude(const mesh::Mat3& R) {
   return {kDegrees * std::atan2(-R(1, 2), R(1, 1)), kDegrees * std::asin(std::clamp(R(1, 0), -1.0, 1.0)),

@@ -6,6 +6,9 @@
 
 namespace windhover::app {
 
+/// The columns of history.csv.
+std::vector<std::string> history_columns(const Case& c);
+
 /// Attitude of a body with axes x forward, y up, z right, in degrees: yaw about y (positive clockwise from above),
 /// then pitch about z (nose up), then roll about x (right wing down).
 struct Attitude {

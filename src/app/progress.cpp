@@ -9,14 +9,10 @@
 #include "base/collective.h"
 
 namespace windhover::app {
-namespace {
-
 std::string clock_text(double seconds) {
   const auto whole = static_cast<long long>(seconds + 0.5);
   return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
-
-}  // namespace
 
 std::string progress_line(const StepReport& report, double fraction, double elapsed_s) {
   const std::string left = fraction > 0 ? clock_text(elapsed_s * (1 - fraction) / fraction) : "?";

@@ -16,6 +16,9 @@ struct StepReport {
   std::string aircraft = {};   ///< attitude and thrust, where there are any
 };
 
+/// hours:minutes:seconds
+std::string clock_text(double seconds);
+
 /// `fraction` of the run is done after `elapsed_s`.
 std::string progress_line(const StepReport& report, double fraction, double elapsed_s);
 

@@ -6,6 +6,7 @@
 #include "app/case.h"
 #include "app/mesh_file.h"
 #include "app/process.h"
+#include "app/sub_run.h"
 #include "base/errors.h"
 #include "io/file.h"
 
@@ -14,35 +15,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string last_lines(const fs::path& log) {
-  const std::string text = io::read_text(log);
-  size_t begin = text.size();
-  for (int line = 0; line < 6 && begin != std::string::npos && begin > 0; ++line) begin = text.rfind('\n', begin - 1);
-  return text.substr(begin == std::string::npos ? 0 : begin);
-}
-
 void run_logged(const std::vector<std::string>& command, const fs::path& log, const std::string& name) {
   const int code = run_process(command, {log, log});
   if (code != 0)
     throw UserError("run {} failed with exit code {}; its output, in {}, ends:{}", name, code, log.string(),
-                    last_lines(log));
+                    last_lines(log, 5));
 }
 
 /// The mesh when it is due, then the run.
 void make_run(const VerifyRun& run, const fs::path& case_folder, const fs::path& results) {
   const fs::path case_file = case_folder / run.case_file, log = results / (run.name + ".log");
-  std::vector<std::string> arguments = {case_file};
-  for (const auto& text : run.overrides) arguments.insert(arguments.end(), {"--set", text});
-  const auto windhover = [&](std::vector<std::string> command, const std::string& name) {
-    command.insert(command.end(), {own_path(), name});
-    command.insert(command.end(), arguments.begin(), arguments.end());
-    return command;
-  };
   const Case c = load_case(case_file, run.overrides);
-  if (can_make_mesh(c) && mesh_is_due(c)) run_logged(windhover({}, "mesh"), log, run.name);
-  std::vector<std::string> launcher;
-  if (run.ranks > 1) launcher = {"mpiexec", "--oversubscribe", "-n", std::to_string(run.ranks)};
-  auto command = windhover(launcher, "run");
+  if (can_make_mesh(c) && mesh_is_due(c)) run_logged(sub_command("mesh", case_file, run.overrides), log, run.name);
+  auto command = sub_command("run", case_file, run.overrides, run.ranks);
   command.insert(command.end(), {"--out", results / run.name});
   run_logged(command, log, run.name);
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/sub_run.h"
 #include "app/verify.h"
 #include "base/errors.h"
 #include "io/options_documenter.h"
@@ -25,8 +26,7 @@ std::pair<double, double> bounds(const VerifyFigure& f) {
 void validate(const VerifyTable& table, const toml::table& file) {
   std::vector<std::string> names;
   for (const auto& run : table.runs) {
-    if (run.name.empty() || run.name.find('/') != std::string::npos || run.name.front() == '.')
-      throw UserError("{}: run.name = \"{}\": is the name of a results folder", io::place(file, "run"), run.name);
+    validate_run_name(run.name, io::place(file, "run"));
     names.push_back(run.name);
   }
   for (size_t i = 0; i < table.figures.size(); ++i) {

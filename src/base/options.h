@@ -25,6 +25,12 @@ struct Key {
   std::vector<std::string> choices = {};  ///< the valid strings; empty: any
 };
 
+/// A dotted key, and what it takes in turn: values as TOML text.
+struct ValueList {
+  std::string key;
+  std::vector<std::string> values;
+};
+
 bool in_range(const Key& key, double value);
 
 /// The range in words, such as "> 0" or "from 0 to 1"; empty when there is none.

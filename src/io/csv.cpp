@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cstdlib>
 #include <sstream>
 
 #include "base/collective.h"
+#include "base/errors.h"
+#include "base/options.h"
 
 namespace windhover::io {
 
@@ -40,6 +43,27 @@ void CsvTable::cut_back(const std::string& header, std::int64_t last_step) const
 void CsvTable::append(std::span<const double> row) {
   assert(row.size() == columns_);
   on_root(comm_, [&] { file_->write_whole(fmt::format("{}\n", fmt::join(row, ","))); });
+}
+
+CsvColumns::CsvColumns(std::filesystem::path path) : path_(std::move(path)) {
+  std::istringstream text(read_text(path_));
+  std::string line, cell;
+  std::getline(text, line);
+  for (std::istringstream header(line); std::getline(header, cell, ',');) names_.push_back(cell);
+  columns_.resize(names_.size());
+  while (std::getline(text, line) && !text.eof()) {  // whole rows end with a line end
+    std::istringstream row(line);
+    for (auto& column : columns_) {
+      std::getline(row, cell, ',');
+      column.push_back(std::strtod(cell.c_str(), nullptr));
+    }
+  }
+}
+
+const std::vector<double>& CsvColumns::operator[](const std::string& column) const {
+  const auto there = std::find(names_.begin(), names_.end(), column);
+  if (there == names_.end()) throw UserError("{}: has no column \"{}\"{}", path_.string(), column, suggestion(column, names_));
+  return columns_[there - names_.begin()];
 }
 
 }  // namespace windhover::io

@@ -33,4 +33,16 @@ class CsvTable {
   std::optional<OutputFile> file_;  // on rank 0
 };
 
+/// A CSV file with a header, read by column. UserError: no such file or column; a last row that was cut short is left out.
+class CsvColumns {
+ public:
+  explicit CsvColumns(std::filesystem::path path);
+  const std::vector<double>& operator[](const std::string& column) const;
+
+ private:
+  std::filesystem::path path_;
+  std::vector<std::string> names_;
+  std::vector<std::vector<double>> columns_;
+};
+
 }  // namespace windhover::io

@@ -42,6 +42,9 @@ void OptionsDocumenter::key(const std::string& name, const std::vector<std::stri
 void OptionsDocumenter::key(const std::string& name, const std::vector<double>& value, const Key& key) {
   row(name, "list of numbers", fmt::format("[{}]", fmt::join(value, ", ")), key);
 }
+void OptionsDocumenter::key(const std::string& name, const std::vector<ValueList>&, const Key& key) {
+  row(name, "table of lists", "{}", key);
+}
 void OptionsDocumenter::key(const std::string& name, const std::map<std::string, double>&, const Key& key) {
   row(name, "table of numbers", "{}", key);
 }

@@ -21,6 +21,7 @@ class OptionsDocumenter {
   void key(const std::string& name, const Eigen::Vector3d& value, const Key& key);
   void key(const std::string& name, const std::vector<std::string>& value, const Key& key);
   void key(const std::string& name, const std::vector<double>& value, const Key& key);
+  void key(const std::string& name, const std::vector<ValueList>& value, const Key& key);
   void key(const std::string& name, const std::map<std::string, double>& value, const Key& key);
   void key(const std::string& name, const std::map<std::string, std::string>& value, const Key& key);
   void key(const std::string& name, const std::optional<double>& value, const Key& key);

@@ -7,13 +7,6 @@
 namespace windhover::io {
 namespace {
 
-std::string value_text(const toml::node& node) {
-  if (const auto text = node.value_exact<std::string>()) return fmt::format("\"{}\"", *text);
-  std::ostringstream text;
-  node.visit([&](const auto& concrete) { text << concrete; });
-  return text.str();
-}
-
 [[noreturn]] void refuse(const toml::node& node, const std::string& name, const std::string& expected) {
   throw UserError("{}: {} = {}: {}", place(node), name, value_text(node), expected);
 }
@@ -40,7 +33,39 @@ std::string read_string(const toml::node& node, const std::string& name, const K
   return *value;
 }
 
+struct PlacedList {
+  toml::source_position place;
+  ValueList list;
+};
+
+void collect_lists(const toml::table& table, const std::string& path, std::vector<PlacedList>& lists) {
+  for (const auto& [entry, node] : table) {
+    const std::string name = path + std::string(entry.str());
+    if (const toml::table* inner = node.as_table()) {
+      collect_lists(*inner, name + ".", lists);
+      continue;
+    }
+    const toml::array* array = node.as_array();
+    if (!array || array->empty()) refuse(node, name, "expected a list of values");
+    PlacedList& placed = lists.emplace_back(PlacedList{node.source().begin, {name, {}}});
+    for (const toml::node& element : *array) placed.list.values.push_back(value_text(element));
+  }
+}
+
 }  // namespace
+
+std::string value_text(const toml::node& node) {
+  if (const auto text = node.value_exact<std::string>()) return fmt::format("\"{}\"", *text);
+  if (const auto number = node.value_exact<double>()) return fmt::format("{}", *number);
+  std::ostringstream text;
+  if (const toml::array* array = node.as_array()) {
+    for (const toml::node& element : *array) text << (text.tellp() == 0 ? "[" : ", ") << value_text(element);
+    text << (array->empty() ? "[]" : "]");
+  } else {
+    node.visit([&](const auto& concrete) { text << concrete; });
+  }
+  return text.str();
+}
 
 const toml::node* OptionsReader::find(const std::string& name) {
   known_.push_back(name);
@@ -116,6 +141,16 @@ void OptionsReader::key(const std::string& name, std::vector<double>& value, con
   value.clear();
   for (const toml::node& element : *array)
     value.push_back(read_number(element, fmt::format("{}{}[{}]", prefix_, name, value.size()), key));
+}
+
+void OptionsReader::key(const std::string& name, std::vector<ValueList>& value, const Key&) {
+  const toml::table* table = find_table(name);
+  if (!table) return;
+  std::vector<PlacedList> lists;
+  collect_lists(*table, "", lists);
+  std::sort(lists.begin(), lists.end(), [](const PlacedList& a, const PlacedList& b) { return a.place < b.place; });
+  value.clear();
+  for (PlacedList& placed : lists) value.push_back(std::move(placed.list));
 }
 
 void OptionsReader::key(const std::string& name, std::map<std::string, double>& value, const Key& key) {

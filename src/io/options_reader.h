@@ -16,6 +16,9 @@ namespace windhover::io {
 /// "file:line" of a node, or the override it came from.
 std::string place(const toml::node& node);
 
+/// A value as TOML text, numbers as short as they read back exactly.
+std::string value_text(const toml::node& node);
+
 /// Parses a TOML file. Each override is `dotted.key=value`, the value parsed as TOML and a bare word taken as a
 /// string; an element of an array of tables is named by its number from 0.
 toml::table read_toml(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
@@ -39,6 +42,8 @@ class OptionsReader {
   void key(const std::string& name, Eigen::Vector3d& value, const Key& key);
   void key(const std::string& name, std::vector<std::string>& value, const Key& key);
   void key(const std::string& name, std::vector<double>& value, const Key& key);
+  /// A table of lists of any values, its keys dotted and in the order of the file.
+  void key(const std::string& name, std::vector<ValueList>& value, const Key& key);
   void key(const std::string& name, std::map<std::string, double>& value, const Key& key);
   void key(const std::string& name, std::map<std::string, std::string>& value, const Key& key);
 
