@@ -225,4 +225,10 @@ int step_count(const Case& c) {
   return static_cast<int>(std::ceil(*c.time.end_s / step_seconds(c) * (1 - 1e-12)));
 }
 
+std::optional<double> turn_seconds(const Case& c) {
+  const double fastest = fastest_rotation_deg_s(c);
+  if (fastest == 0) return {};
+  return 360 / fastest;
+}
+
 }  // namespace windhover::app

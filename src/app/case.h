@@ -198,4 +198,7 @@ double step_seconds(const Case& c);
 double end_seconds(const Case& c);
 int step_count(const Case& c);
 
+/// One turn of the fastest steady rotation, which step_deg refers to; none where nothing turns.
+std::optional<double> turn_seconds(const Case& c);
+
 }  // namespace windhover::app

@@ -6,6 +6,7 @@
 #include "app/mesh_file.h"
 #include "app/session.h"
 #include "app/simulation.h"
+#include "app/study.h"
 #include "app/trim.h"
 #include "app/verify.h"
 #include "base/errors.h"
@@ -20,6 +21,7 @@ struct Arguments {
   std::vector<std::string> overrides;
   std::string petsc;
   RunOptions run;
+  bool check = false;
   bool quick = false;
 };
 
@@ -63,16 +65,25 @@ int verify_command(const Arguments& a) {
   return verify(a.path, a.quick);
 }
 
+int study_command(const Arguments& a) {
+  reject_mpiexec("study");
+  return study(a.path, {a.run.out, a.overrides, a.check});
+}
+
 int keys_command() {
-  fmt::print("{}{}", case_file_documentation(), verify_documentation());
+  fmt::print("{}{}{}", case_file_documentation(), verify_documentation(), study_documentation());
   return 0;
+}
+
+void add_overrides(CLI::App& command, Arguments& a) {
+  command.add_option("--set", a.overrides, "override a key: key=value; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
 }
 
 void add_case(CLI::App& command, Arguments& a) {
   command.add_option("CASE", a.path, "case file")->required();
-  command.add_option("--set", a.overrides, "override a key: key=value; may be repeated")
-      ->take_all()
-      ->allow_extra_args(false);
+  add_overrides(command, a);
 }
 
 void add_petsc(CLI::App& command, Arguments& a) {
@@ -111,6 +122,12 @@ int run_command(int argc, char** argv) {
   verify_app->add_option("CASEDIR", a.path, "folder with verify.toml")->required();
   verify_app->add_flag("--quick", a.quick, "only the runs marked quick");
 
+  auto* study_app = app.add_subcommand("study", "make a table of runs: errors against cost, and the cheapest accurate setting");
+  study_app->add_option("STUDY", a.path, "study file")->required();
+  add_overrides(*study_app, a);
+  study_app->add_option("--out", a.run.out, "folder of the results");
+  study_app->add_flag("--check", a.check, "read everything, list the runs, make none");
+
   app.add_subcommand("keys", "print the reference of all keys")->group("");
 
   try {
@@ -125,6 +142,7 @@ int run_command(int argc, char** argv) {
     if (*check_app) return check_command(a);
     if (*trim_app) return trim_command(a);
     if (*verify_app) return verify_command(a);
+    if (*study_app) return study_command(a);
     return keys_command();
   });
 }

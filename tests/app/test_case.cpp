@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "../io/scratch.h"
+#include "app/study_table.h"
 #include "app/verify.h"
 #include "base/errors.h"
 #include "io/file.h"
@@ -187,7 +188,7 @@ TEST_CASE("every case of the project is read", "[app]") {
   int read = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(WINDHOVER_SOURCE_DIR "/cases")) {
     const auto& file = entry.path();
-    if (file.extension() != ".toml" || file.filename() == "verify.toml" || file.stem().extension() == ".msh") continue;
+    if (file.extension() != ".toml" || file.filename() == "verify.toml" || file.filename() == "study.toml" || file.stem().extension() == ".msh") continue;
     INFO(file);
     CHECK_NOTHROW(load_case(file));
     ++read;
@@ -198,5 +199,5 @@ TEST_CASE("every case of the project is read", "[app]") {
 TEST_CASE("docs/case-file.md is current", "[app]") {
   INFO("renew it with `windhover keys > docs/case-file.md`");
   CHECK(io::read_text(WINDHOVER_SOURCE_DIR "/docs/case-file.md") ==
-        app::case_file_documentation() + app::verify_documentation());
+        app::case_file_documentation() + app::verify_documentation() + app::study_documentation());
 }
