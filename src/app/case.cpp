@@ -54,14 +54,6 @@ void complete(Case& c) {
   if (c.output.directory.empty()) c.output.directory = "results/" + c.name;
 }
 
-double fastest_rotation_deg_s(const Case& c) {
-  double fastest = 0;
-  for (const auto& motion : c.body.motion)
-    if (motion.kind == "rotation") fastest = std::max(fastest, std::abs(motion.rate_deg_s));
-  for (const auto& zone : c.zone) fastest = std::max(fastest, std::abs(zone.rate_deg_s));
-  return fastest;
-}
-
 void validate_time(const Case& c, const toml::table& file) {
   const TimeOptions& time = c.time;
   const int step_keys = int(time.step_s.has_value()) + time.step_deg.has_value() + time.step_nondim.has_value();
@@ -210,6 +202,14 @@ mesh::Rotation zone_rotation(const ZoneOptions& zone) {
           zone.point_m,
           {zone.mean_deg * radians, zone.rate_deg_s * radians, zone.amplitude_deg * radians,
            2 * std::numbers::pi * zone.frequency_hz, zone.phase_deg * radians}};
+}
+
+double fastest_rotation_deg_s(const Case& c) {
+  double fastest = 0;
+  for (const auto& motion : c.body.motion)
+    if (motion.kind == "rotation") fastest = std::max(fastest, std::abs(motion.rate_deg_s));
+  for (const auto& zone : c.zone) fastest = std::max(fastest, std::abs(zone.rate_deg_s));
+  return fastest;
 }
 
 double step_seconds(const Case& c) {

@@ -128,11 +128,14 @@ struct TimeOptions {
 };
 
 struct SolverOptions {
+  std::string method = "newton_krylov";
   std::string preconditioner = "ilu";
   int ilu_levels = 1;
   std::string jacobian = "exact";
   double newton_tolerance = 1e-3;
   int newton_iterations = 12;
+  int dual_time_iterations = 1000;
+  double dual_time_cfl = 4;
   bool eisenstat_walker = true;
   double krylov_tolerance = 0.1;
   int krylov_iterations = 200, krylov_restart = 30;
@@ -192,6 +195,9 @@ geometry::GeometryOptions mesh_geometry(const Case& c);
 
 /// How a zone turns in its parent, in SI units and radians.
 mesh::Rotation zone_rotation(const ZoneOptions& zone);
+
+/// The fastest steady rotation of body and zones; 0: nothing turns steadily.
+double fastest_rotation_deg_s(const Case& c);
 
 /// The length of a step and the end of the run in seconds; steps = end / step, rounded up.
 double step_seconds(const Case& c);

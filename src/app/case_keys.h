@@ -190,6 +190,10 @@ void declare(V& v, TimeOptions& o) {
 
 template <class V>
 void declare(V& v, SolverOptions& o) {
+  v.key("method", o.method,
+        {.doc = "what solves an implicit step: Newton's method, or dual time, which goes there by explicit pseudo-steps "
+                "(rational Runge-Kutta) and uses none of the keys of preconditioner, Jacobian and Krylov",
+         .choices = {"newton_krylov", "dual_time"}});
   v.key("preconditioner", o.preconditioner,
         {.doc = "preconditioner; ilu per rank, asm with overlap, rrk: rational Runge-Kutta steps, rrk-multigrid: aggregation multigrid smoothed by them",
          .choices = {"ilu", "asm", "rrk", "rrk-multigrid", "point_block_jacobi", "lu", "none"}});
@@ -197,8 +201,11 @@ void declare(V& v, SolverOptions& o) {
   v.key("jacobian", o.jacobian,
         {.doc = "Jacobian products by forward differentiation or by differences", .choices = {"exact", "difference"}});
   v.key("newton_tolerance", o.newton_tolerance,
-        {.doc = "fall of the residual over a step's Newton iterations", .above = 0, .max = 1});
+        {.doc = "fall of the residual over a step's Newton iterations or pseudo-steps, against the rate of change of the flow", .above = 0, .max = 1});
   v.key("newton_iterations", o.newton_iterations, {.doc = "Newton iterations before a step is halved", .min = 1});
+  v.key("dual_time_iterations", o.dual_time_iterations, {.doc = "pseudo-steps of dual time before a step is halved", .min = 1});
+  v.key("dual_time_cfl", o.dual_time_cfl,
+        {.doc = "acoustic Courant number of each cell's pseudo-step, which the step itself bounds besides", .above = 0});
   v.key("eisenstat_walker", o.eisenstat_walker, {.doc = "choose the Krylov tolerance by Eisenstat and Walker"});
   v.key("krylov_tolerance", o.krylov_tolerance,
         {.doc = "fall of the linear residual when eisenstat_walker is false", .above = 0, .max = 1});

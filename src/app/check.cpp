@@ -62,7 +62,7 @@ int check_simulation(const Case& c) {
   const auto& scheme = fluid::time_scheme(c.time.scheme);
   const double residuals_per_step = scheme.implicit ? 60.0 * (scheme.stages > 1 && scheme.a[0][0] != 0 ? 2 : 1) : scheme.stages;
   // matrix and factor, and the Krylov basis, which are not made yet
-  const double later = scheme.implicit ? mesh.n_global * (2 * 5.5 * 200.0 + 40.0 * 2 * 20) : 0.0;
+  const double later = scheme.implicit && c.solver.method == "newton_krylov" ? mesh.n_global * (2 * 5.5 * 200.0 + 40.0 * 2 * 20) : 0.0;
   std::string text = fmt::format("case      {}\nmesh      {}: {} cells\n", c.file.string(), c.mesh.file, mesh.n_global);
   for (const auto& zone : mesh.zones) text += fmt::format("zone      {}\n", zone.name);
   for (const auto& patch : mesh.patches)
@@ -77,7 +77,9 @@ int check_simulation(const Case& c) {
   text += fmt::format("          smallest cell, root of its volume, {:.4g} m, crossed by sound in {:.3g} s {}\n", s.length * cell.value,
                       s.time() * cell.value, place(cell, s.length));
   text += mass_text(c);
-  text += fmt::format("step      {:.6g} s, acoustic Courant number up to {:.4g}\n", step_seconds(c), courant);
+  const double step_s = step_seconds(c), turn_deg_s = fastest_rotation_deg_s(c);
+  text += fmt::format("step      {:.6g} s, acoustic Courant number up to {:.4g}; 1 at {:.4g} s", step_s, courant, step_s / courant);
+  text += turn_deg_s > 0 ? fmt::format(" or {:.4g} deg\n", step_s / courant * turn_deg_s) : "\n";
   text += fmt::format("memory    about {:.3g} GB\n", (memory + later) * 1e-9);
   const int steps = step_count(c);
   text += fmt::format("time      about {:.2g} s a step, {:.2g} s for {} steps\n", residuals_per_step * residual,

@@ -148,7 +148,7 @@ void Flight::begin(const coupling::Trajectory& motion, double) { solver_.begin(f
 
 coupling::FluidSide::Answer Flight::iterate(const coupling::Trajectory& motion, int newton) {
   // one iteration at least where the coupling iterates: the error of a flow that is left alone would hide the loads' answer
-  report_ = solver_.iterate(frame_function(motion), newton > 0 ? newton : case_.solver.newton_iterations, newton > 0);
+  report_ = solver_.iterate(frame_function(motion), newton, newton > 0);
   Answer answer{.converged = report_.accepted, .failed = report_.failed, .reason = report_.reason, .loads = {}};
   if (!answer.failed) answer.loads = air(solver_.iterate(), motion(1)).loads;
   return answer;

@@ -48,6 +48,7 @@ fluid::FlowOptions flow_options(const Case& c) {
   o.damping = c.time.damping;
   o.extrapolate = s.extrapolate;
   o.jacobian_lag = s.jacobian_lag;
+  o.method = &by_name(fluid::kStageMethods, s.method);
   o.newton = {.preconditioner = &fluid::preconditioner(s.preconditioner),
               .ilu_levels = s.ilu_levels,
               .exact_jacobian = s.jacobian == "exact",
@@ -57,6 +58,7 @@ fluid::FlowOptions flow_options(const Case& c) {
               .krylov_tolerance = s.krylov_tolerance,
               .krylov_iterations = s.krylov_iterations,
               .krylov_restart = s.krylov_restart};
+  o.dual_time = {.tolerance = s.newton_tolerance, .max_iterations = s.dual_time_iterations, .cfl = s.dual_time_cfl};
   return o;
 }
 

@@ -23,7 +23,7 @@ void declare(V& v, CouplingOptions& o) {
          .max = 0.1});
   v.key("max_iterations", o.max_iterations, {.doc = "iterations before a step is refused and halved", .min = 1});
   v.key("newton_per_iteration", o.newton_per_iteration,
-        {.doc = "Newton iterations of the flow in one coupling iteration, at most", .min = 1});
+        {.doc = "Newton iterations of the flow in one coupling iteration, at most; dual time solves the flow in each", .min = 1});
   v.key("relaxation", o.relaxation,
         {.doc = "part of the change of the loads that is taken: always (constant), at first (aitken), where the "
                 "accelerations know nothing better (anderson, iqn-ils)",

@@ -83,7 +83,12 @@ class EulerOperator {
   /// States at the face centroids of a patch, in the order of its blocks' lanes (owned by this rank).
   std::vector<State<double>> patch_states(Vec q, const Frames& frames, int patch);
 
-  /// Largest acoustic Courant number (|u − v_g| + c) dt / h, h = volume over half the surface's projection; all ranks.
+  /// Density and pressure are positive everywhere. Collective.
+  bool is_physical(Vec q) const;
+
+  /// Λ = ½ Σ_faces (|u·n − v_g·n| + c) |A| of each owned cell: Λ/V bounds how fast sound makes the cell change.
+  std::vector<double> spectral_radii(Vec q, const Frames& frames);
+  /// Largest acoustic Courant number Λ dt / V; all ranks.
   double courant_number(Vec q, const Frames& frames, double dt);
 
  private:

@@ -28,6 +28,17 @@ std::array<double, kVariables> EulerOperator::total(Vec state) const {
   return sum;
 }
 
+bool EulerOperator::is_physical(Vec state) const {
+  const double* q = nullptr;
+  petsc(VecGetArrayRead(state, &q));
+  int good = 1;
+  for (mesh::Index c = 0; c < mesh_.n_owned && good; ++c)
+    good = q[5 * c] > 0 && primitive(q + 5 * c, model_.gamma).p > 0;  // false for NaN, too
+  petsc(VecRestoreArrayRead(state, &q));
+  MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, mesh_.comm);
+  return good;
+}
+
 std::vector<PatchFlux> EulerOperator::patch_fluxes(Vec q, const Frames& frames) {
   prepare(q, frames);
   const int r = static_cast<int>(model_.reconstruction);
@@ -76,9 +87,9 @@ std::vector<State<double>> EulerOperator::patch_states(Vec q, const Frames& fram
   return surface_states(q, frames, {&faces, 1}).front();
 }
 
-double EulerOperator::courant_number(Vec q, const Frames& frames, double dt) {
+std::vector<double> EulerOperator::spectral_radii(Vec q, const Frames& frames) {
   load_cells(q, frames, nullptr, cells_);
-  std::vector<double> rate(rates_.size(), 0.0);  // Σ_faces (|u_n − v_g·n| + c) |A|
+  std::vector<double> radii(rates_.size(), 0.0);
   const auto add = [&](const FaceInput& in, const FaceBlock* blocks, int n, int sides) {
     for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
       const FaceGeometry face = face_geometry(in, *b);
@@ -86,7 +97,7 @@ double EulerOperator::courant_number(Vec q, const Frames& frames, double dt) {
         const State<Pack> s = face_side<Reconstruction::first_order, Pack>(in, *b, side).state;
         const Pack speed =
             absolute(normal_speed(s, face.normal) - face.normal.grid_speed) + sqrt(in.gamma * s.p / s.rho);
-        for (int i = 0; i < b->count; ++i) rate[b->cell[side][i]] += (face.area * speed)[i];
+        for (int i = 0; i < b->count; ++i) radii[b->cell[side][i]] += 0.5 * (face.area * speed)[i];
       }
     }
   };
@@ -95,8 +106,14 @@ double EulerOperator::courant_number(Vec q, const Frames& frames, double dt) {
   for_each_group(
       frames, add_both,
       [&](const FaceInput& in, BoundaryKind, const FaceBlock* blocks, int n, int) { add(in, blocks, n, 1); });
+  radii.resize(mesh_.n_owned);
+  return radii;
+}
+
+double EulerOperator::courant_number(Vec q, const Frames& frames, double dt) {
+  const std::vector<double> radii = spectral_radii(q, frames);
   double largest = 0;
-  for (mesh::Index c = 0; c < mesh_.n_owned; ++c) largest = std::max(largest, 0.5 * dt * rate[c] / mesh_.volume[c]);
+  for (mesh::Index c = 0; c < mesh_.n_owned; ++c) largest = std::max(largest, dt * radii[c] / mesh_.volume[c]);
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm);
   return largest;
 }

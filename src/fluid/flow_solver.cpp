@@ -34,7 +34,7 @@ int StepReport::krylov() const {
 
 FlowSolver::FlowSolver(EulerOperator& euler, const FlowOptions& options)
     : euler_(euler), options_(options) {
-  if (options_.scheme->implicit) newton_.emplace(euler, options.newton);
+  if (options_.scheme->implicit) stage_solver_ = options.method->make(euler, options.newton, options.dual_time);
   state_.q = euler.make_vector();
   state_.previous = euler.make_vector();
   known_ = euler.make_vector();
@@ -60,7 +60,7 @@ double FlowSolver::bdf2_weight() const {
   return scheme.damped && state_.last_step > 0 ? options_.damping : 0;
 }
 
-/// Norm of V (q_n − q_{n−1}) / Δt: how fast the flow changes, what Newton's residual is compared with.
+/// Norm of V (q_n − q_{n−1}) / Δt: how fast the flow changes, what the residual is compared with.
 double FlowSolver::rate_norm() const {
   if (state_.last_step == 0) return 0;
   const double *now = nullptr, *before = nullptr;
@@ -78,17 +78,6 @@ double FlowSolver::rate_norm() const {
   return std::sqrt(sum) / state_.last_step;
 }
 
-bool FlowSolver::is_physical(Vec q) const {
-  const double* v = nullptr;
-  petsc(VecGetArrayRead(q, &v));
-  int good = 1;
-  for (mesh::Index c = 0; c < euler_.mesh().n_owned && good; ++c)
-    good = v[5 * c] > 0 && primitive(v + 5 * c, euler_.model().gamma).p > 0;  // false for NaN, too
-  petsc(VecRestoreArrayRead(q, &v));
-  MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, euler_.mesh().comm);
-  return good;
-}
-
 /// out = q_n + fraction Δt (q_n − q_{n−1}) / Δt_{n−1}, or q_n where that would not be a gas.
 void FlowSolver::predict(double fraction, double dt, Vec out) const {
   petsc(VecCopy(state_.q, out));
@@ -96,7 +85,7 @@ void FlowSolver::predict(double fraction, double dt, Vec out) const {
   if (!options_.extrapolate || state_.last_step == 0 || starting) return;
   const double r = fraction * dt / state_.last_step;
   petsc(VecAXPBY(out, -r, 1.0 + r, state_.previous));
-  if (!is_physical(out)) petsc(VecCopy(state_.q, out));
+  if (!euler_.is_physical(out)) petsc(VecCopy(state_.q, out));
 }
 
 /// out = q_n − Δt/V Σ_j coefficients_j R_j
@@ -114,7 +103,7 @@ void FlowSolver::explicit_state(const double* coefficients, int stages, double d
 
 /// Stage i of an implicit scheme; false unless it is converged.
 bool FlowSolver::solve_stage(const TimeScheme& scheme, int i, const FrameFunction& frames, int max_newton,
-                             int min_newton) {
+                             int min_iterations) {
   const VecHandle& stage = stages_[stages_.size() - scheme.stages + i];
   StageEquation equation;
   equation.frames = frames(state_.time + scheme.c[i] * dt_);
@@ -126,19 +115,19 @@ bool FlowSolver::solve_stage(const TimeScheme& scheme, int i, const FrameFunctio
   if (w > 0) add_times_volume(euler_.mesh(), -w * h.h1 / h.a / dt_, state_.previous, known_);
   for (int j = 0; j < i; ++j)
     if (scheme.a[i][j] != 0) petsc(VecAXPY(known_, (1 - w) * scheme.a[i][j], rates_[j]));
-  report_.stages.push_back(newton_->solve(equation, stage, reference_[i], max_newton, min_newton));
-  const NewtonReport& newton = report_.stages.back();
-  reference_[i] = std::max(reference_[i], newton.iterations.front().residual);
-  report_.failed = report_.failed || newton.failed;
-  if (!newton.converged) report_.reason = "Newton: " + newton.reason;
+  report_.stages.push_back(stage_solver_->solve(equation, stage, reference_[i], max_newton, min_iterations));
+  const StageReport& report = report_.stages.back();
+  reference_[i] = std::max(reference_[i], report.iterations.front().residual);
+  report_.failed = report_.failed || report.failed;
+  if (!report.converged) report_.reason = report.reason;
   const bool used_later = i + 1 < scheme.stages;
   if (used_later && !report_.failed) euler_.residual(stage, equation.frames, rates_[i]);
-  return newton.converged;
+  return report.converged;
 }
 
 void FlowSolver::begin(const FrameFunction& frames, double dt) {
   const TimeScheme& scheme = current_scheme();
-  if (newton_ && (!report_.accepted || state_.step % options_.jacobian_lag == 0)) newton_->rebuild_preconditioner();
+  if (stage_solver_ && (!report_.accepted || state_.step % options_.jacobian_lag == 0)) stage_solver_->renew();
   dt_ = dt;
   report_ = {};
   reference_.assign(scheme.stages, scheme.implicit ? rate_norm() : 0);
@@ -152,7 +141,7 @@ void FlowSolver::iterate_explicit(const TimeScheme& scheme, const FrameFunction&
   const Vec stage = stages_.back();
   for (int i = 1; i <= scheme.stages; ++i) {
     explicit_state(i < scheme.stages ? scheme.a[i] : scheme.b, i, dt_, stage);
-    if (!is_physical(stage)) {
+    if (!euler_.is_physical(stage)) {
       report_.failed = true;
       report_.reason = "negative density or pressure in an explicit stage";
       return;
@@ -162,7 +151,7 @@ void FlowSolver::iterate_explicit(const TimeScheme& scheme, const FrameFunction&
   report_.accepted = true;
 }
 
-const StepReport& FlowSolver::iterate(const FrameFunction& frames, int max_newton, int min_newton) {
+const StepReport& FlowSolver::iterate(const FrameFunction& frames, int max_newton, int min_iterations) {
   const TimeScheme& scheme = current_scheme();
   report_.accepted = report_.failed = false;
   report_.reason.clear();
@@ -172,7 +161,7 @@ const StepReport& FlowSolver::iterate(const FrameFunction& frames, int max_newto
   }
   bool converged = true;
   for (int i = scheme.a[0][0] == 0 ? 1 : 0; i < scheme.stages && !report_.failed; ++i)
-    converged = solve_stage(scheme, i, frames, max_newton, min_newton) && converged;
+    converged = solve_stage(scheme, i, frames, max_newton, min_iterations) && converged;
   report_.accepted = converged;
   return report_;
 }
@@ -187,7 +176,7 @@ void FlowSolver::accept() {
 
 StepReport FlowSolver::advance(const FrameFunction& frames, double dt) {
   begin(frames, dt);
-  iterate(frames, options_.newton.max_iterations);
+  iterate(frames);
   if (report_.accepted) accept();
   return report_;
 }

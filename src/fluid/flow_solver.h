@@ -2,7 +2,7 @@
 #pragma once
 #include <functional>
 
-#include "fluid/newton.h"
+#include "fluid/stage_methods.h"
 #include "fluid/time_scheme.h"
 
 namespace windhover::fluid {
@@ -22,15 +22,17 @@ struct FlowOptions {
   double damping = 0;       ///< w of (1 − w) Crank–Nicolson + w BDF2, see bdf2_coefficients
   bool extrapolate = true;  ///< first guess by linear extrapolation in time
   int jacobian_lag = 1;     ///< steps between rebuilds of the preconditioner
+  const StageMethod* method = &kStageMethods[0];
   NewtonOptions newton;
+  DualTimeOptions dual_time;
 };
 
 struct StepReport {
   bool accepted = false;  ///< every stage is converged
-  bool failed = false;    ///< more Newton iterations would not help
+  bool failed = false;    ///< more iterations would not help
   std::string reason;
-  std::vector<NewtonReport> stages;  ///< implicit stages in order, those of every iterate() one after the other
-  int newton() const;
+  std::vector<StageReport> stages;  ///< implicit stages in order, those of every iterate() one after the other
+  int newton() const;  ///< or pseudo-steps
   int krylov() const;
 };
 
@@ -52,9 +54,8 @@ class FlowSolver {
   /// The same in parts, for frames that depend on the flow: what is known at the start (the rate R(q_n), first guesses)
   /// is computed once, then the step is solved again and again, each time from the last iterate on.
   void begin(const FrameFunction& frames, double dt);
-  /// At least `min_newton` and at most `max_newton` Newton iterations in each stage; frames must not change at the start
-  /// of the step.
-  const StepReport& iterate(const FrameFunction& frames, int max_newton, int min_newton = 0);
+  /// StageSolver::solve for each stage; frames must not change at the start of the step.
+  const StepReport& iterate(const FrameFunction& frames, int max_newton = 0, int min_iterations = 0);
   /// The latest iterate: what the state becomes if it is accepted.
   Vec iterate() const { return stages_.back(); }
   void accept();
@@ -64,21 +65,20 @@ class FlowSolver {
  private:
   const TimeScheme& current_scheme() const;
   double bdf2_weight() const;
-  bool solve_stage(const TimeScheme& scheme, int i, const FrameFunction& frames, int max_newton, int min_newton);
+  bool solve_stage(const TimeScheme& scheme, int i, const FrameFunction& frames, int max_newton, int min_iterations);
   void iterate_explicit(const TimeScheme& scheme, const FrameFunction& frames);
   void explicit_state(const double* coefficients, int stages, double dt, Vec out);
   void predict(double fraction, double dt, Vec out) const;
-  bool is_physical(Vec q) const;
   double rate_norm() const;
 
   EulerOperator& euler_;
   FlowOptions options_;
-  std::optional<NewtonKrylov> newton_;  ///< implicit schemes only
+  std::unique_ptr<StageSolver> stage_solver_;  ///< implicit schemes only
   FlowState state_;
   VecHandle known_;
   std::vector<VecHandle> stages_;  ///< iterates
   std::vector<VecHandle> rates_;   ///< R_j of the stages that later ones need
-  std::vector<double> reference_;  ///< of each stage: what Newton's residual is compared with
+  std::vector<double> reference_;  ///< of each stage: what the residual is compared with
   double dt_ = 0;                  ///< of the step begun
   StepReport report_;
 };

@@ -8,31 +8,6 @@
 namespace windhover::fluid {
 namespace {
 
-/// 2-norms over all cells of the volume, and of the surface area times the far field's pressure: the sizes of what
-/// cancels in a residual.
-struct Sizes {
-  double volume, surface;
-};
-Sizes sizes_of(const mesh::Mesh& mesh, double pressure) {
-  std::vector<double> surface(mesh.n_gradient, 0.0);
-  const auto add = [&](const std::vector<mesh::FaceBlock>& blocks, int sides) {
-    for (const auto& b : blocks)
-      for (int i = 0; i < b.count; ++i)
-        for (int s = 0; s < sides; ++s)
-          surface[b.cell[s][i]] += std::hypot(b.area[0][i], b.area[1][i], b.area[2][i]);
-  };
-  add(mesh.faces, 2);
-  for (const auto& patch : mesh.patches) add(patch.blocks, 1);
-  double sums[2] = {};
-  for (mesh::Index c = 0; c < mesh.n_owned; ++c) {
-    sums[0] += mesh.volume[c] * mesh.volume[c];
-    sums[1] += surface[c] * surface[c];
-  }
-  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, mesh.comm);
-  return {std::sqrt(sums[0]), pressure * std::sqrt(sums[1])};
-}
-
-constexpr double kRoundOff = 3e-15;
 constexpr double kLeastFraction = 0.2;  // density and pressure keep at least this much of themselves in one update
 
 bool keeps_positive(const double* q, const double* change, double fraction, double gamma) {
@@ -43,13 +18,10 @@ bool keeps_positive(const double* q, const double* change, double fraction, doub
 
 }  // namespace
 
-NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options) : euler_(euler), options_(options) {
+NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options)
+    : euler_(euler), options_(options), round_off_(euler) {
   const mesh::Mesh& mesh = euler.mesh();
   residual_ = euler.make_vector();
-  const Sizes sizes = sizes_of(mesh, euler.model().far.p);
-  volume_norm_ = sizes.volume;
-  surface_norm_ = sizes.surface;
-
   petsc(SNESCreate(mesh.comm, snes_.out()));
   petsc(SNESSetOptionsPrefix(snes_, "fluid_"));
   petsc(SNESSetFunction(snes_, residual_, form_function, this));
@@ -94,12 +66,12 @@ NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options) :
   petsc(SNESSetFromOptions(snes_));
 }
 
-NewtonReport NewtonKrylov::solve(const StageEquation& equation, Vec q, double reference, int max_iterations,
-                                 int min_iterations) {
+StageReport NewtonKrylov::solve(const StageEquation& equation, Vec q, double reference, int max_newton,
+                                int min_iterations) {
   equation_ = &equation;
-  max_iterations_ = max_iterations;
+  max_iterations_ = max_newton > 0 ? max_newton : options_.max_iterations;
   min_iterations_ = min_iterations;
-  petsc(SNESSetTolerances(snes_, 0, 0, 0, max_iterations, PETSC_MAX_INT));
+  petsc(SNESSetTolerances(snes_, 0, 0, 0, max_iterations_, PETSC_MAX_INT));
   reference_ = reference;
   report_ = {};
   krylov_before_ = 0;
@@ -111,7 +83,7 @@ NewtonReport NewtonKrylov::solve(const StageEquation& equation, Vec q, double re
   petsc(SNESGetConvergedReason(snes_, &reason));
   report_.converged = reason > 0;
   report_.failed = reason < 0 && reason != SNES_DIVERGED_MAX_IT;
-  report_.reason = SNESConvergedReasons[reason];
+  if (!report_.converged) report_.reason = std::string("Newton: ") + SNESConvergedReasons[reason];
   for (const auto& i : report_.iterations) report_.krylov += i.krylov;
   return report_;
 }
@@ -180,8 +152,7 @@ PetscErrorCode NewtonKrylov::test_convergence(SNES snes, PetscInt iteration, Pet
     petsc(SNESGetLinearSolveIterations(snes, &krylov));
     self.report_.iterations.push_back({norm, static_cast<int>(krylov) - self.krylov_before_, MPI_Wtime() - self.started_});
     self.krylov_before_ = static_cast<int>(krylov);
-    const Combination& c = self.equation_->combination;
-    const double floor = kRoundOff * (c.mass * self.volume_norm_ + c.rate * self.surface_norm_);
+    const double floor = self.round_off_(self.equation_->combination);
     if (iteration == 0) {
       self.target_ = std::max(self.options_.tolerance * std::max(norm, self.reference_), floor);
     }
@@ -190,7 +161,7 @@ PetscErrorCode NewtonKrylov::test_convergence(SNES snes, PetscInt iteration, Pet
       *reason = SNES_DIVERGED_FNORM_NAN;
     else if (norm <= (iteration < self.min_iterations_ ? floor : self.target_))
       *reason = SNES_CONVERGED_FNORM_RELATIVE;
-    else if (norm > 1e4 * std::max(self.report_.iterations.front().residual, self.reference_))
+    else if (norm > kDivergence * std::max(self.report_.iterations.front().residual, self.reference_))
       *reason = SNES_DIVERGED_DTOL;
     else if (iteration >= self.max_iterations_)
       *reason = SNES_DIVERGED_MAX_IT;

@@ -1,11 +1,7 @@
 // One implicit stage by Newton–Krylov (SNES, flexible GMRES).
 #pragma once
-#include <string>
-#include <vector>
-
-#include "base/petsc.h"
-#include "fluid/euler.h"
 #include "fluid/preconditioner.h"
+#include "fluid/stage_solver.h"
 
 namespace windhover::fluid {
 
@@ -21,38 +17,15 @@ struct NewtonOptions {
   int krylov_restart = 30;
 };
 
-/// F(q) = mass V q + rate R(q, frames) + known = 0.
-struct StageEquation {
-  Combination combination;
-  Frames frames;
-};
-
-struct NewtonIteration {
-  double residual = 0;  ///< 2-norm after the iteration
-  int krylov = 0;
-  double seconds = 0;
-};
-
-struct NewtonReport {
-  bool converged = false;
-  bool failed = false;  ///< not converged, and not for want of iterations
-  std::string reason;   ///< PETSc's words
-  int krylov = 0;      ///< sum
-  std::vector<NewtonIteration> iterations;  ///< entry 0: the starting residual
-};
-
-class NewtonKrylov {
+class NewtonKrylov : public StageSolver {
  public:
   NewtonKrylov(EulerOperator& euler, const NewtonOptions& options);
   NewtonKrylov(const NewtonKrylov&) = delete;
   NewtonKrylov& operator=(const NewtonKrylov&) = delete;
 
-  /// The preconditioner is made anew in the next solve.
-  void rebuild_preconditioner() { rebuild_ = true; }
-
-  /// q: first guess in, solution out. Converged: |F| <= tolerance * max(|F(guess)|, reference), or at round-off.
-  /// With min_iterations > 0 only round-off is good enough before them.
-  NewtonReport solve(const StageEquation& equation, Vec q, double reference, int max_iterations, int min_iterations = 0);
+  StageReport solve(const StageEquation& equation, Vec q, double reference, int max_newton, int min_iterations) override;
+  /// The preconditioner.
+  void renew() override { rebuild_ = true; }
 
  private:
   static PetscErrorCode form_function(SNES, Vec x, Vec f, void* self);
@@ -69,14 +42,14 @@ class NewtonKrylov {
   std::optional<BlockJacobian> jacobian_;
   MatHandle converted_;  ///< jacobian_ in the preconditioner's own storage, when that is not BAIJ
   SnesHandle snes_;
-  double volume_norm_ = 0, surface_norm_ = 0;  ///< sizes of the terms, for the round-off floor
+  RoundOff round_off_;
   const StageEquation* equation_ = nullptr;
   double reference_ = 0, target_ = 0;
   int max_iterations_ = 0, min_iterations_ = 0;
   double started_ = 0;
   int krylov_before_ = 0;
   bool rebuild_ = true;
-  NewtonReport report_;
+  StageReport report_;
 };
 
 }  // namespace windhover::fluid
