@@ -43,6 +43,19 @@ struct Padded {
   Column column[kSize];
 };
 
+Column times(const Padded& block, const float* x) {
+  Column sum = block.column[0] * x[0];
+  for (int k = 1; k < kSize; ++k) sum += block.column[k] * x[k];
+  return sum;
+}
+
+Column rounded(const double* column) {
+  typedef double Wide __attribute__((vector_size(64)));
+  Wide wide = {};
+  std::memcpy(&wide, column, kSize * sizeof(double));
+  return __builtin_convertvector(wide, Column);
+}
+
 void pack(const Padded& from, float* to) {
   for (int k = 0; k < kSize; ++k) std::memcpy(to + kSize * k, &from.column[k], kSize * sizeof(float));
 }
@@ -142,24 +155,17 @@ bool BlockIlu::factor(const double* blocks) {
     for (int j = 0; j < n_above; ++j) place[upper_.column[above + j]] = n_below + 1 + j;
     for (int at = given_start_[i]; at < given_start_[i + 1]; ++at)
       for (int c = 0; c < kSize; ++c)
-        for (int r = 0; r < kSize; ++r)
-          row[place[given_column_[at]]].column[c][r] =
-              static_cast<float>(blocks[size_t(at) * kEntries + kSize * c + r]);
+        row[place[given_column_[at]]].column[c] = rounded(blocks + size_t(at) * kEntries + kSize * c);
     for (int j = 0; j < n_below; ++j) {
       const int k = lower_.column[below + j];
       Padded factor;
-      for (int c = 0; c < kSize; ++c) {
-        factor.column[c] = row[j].column[0] * pivot_[size_t(k) * kEntries + kSize * c];
-        for (int r = 1; r < kSize; ++r)
-          factor.column[c] += row[j].column[r] * pivot_[size_t(k) * kEntries + kSize * c + r];
-      }
+      for (int c = 0; c < kSize; ++c) factor.column[c] = times(row[j], &pivot_[size_t(k) * kEntries + kSize * c]);
       pack(factor, &lower_.block[(below + j) * kEntries]);
       for (size_t at = upper_.start[k]; at < upper_.start[k + 1]; ++at) {
         const int to = place[upper_.column[at]];
         if (to < 0) continue;  // fill of a higher level
         const float* u = &upper_.block[at * kEntries];
-        for (int c = 0; c < kSize; ++c)
-          for (int r = 0; r < kSize; ++r) row[to].column[c] -= factor.column[r] * u[kSize * c + r];
+        for (int c = 0; c < kSize; ++c) row[to].column[c] -= times(factor, u + kSize * c);
       }
     }
     regular = invert(row[n_below], &pivot_[size_t(i) * kEntries]) && regular;
@@ -173,8 +179,7 @@ bool BlockIlu::factor(const double* blocks) {
 
 void BlockIlu::solve(const double* b, double* x) {
   for (int i = 0; i < n_; ++i) {
-    Column sum = {};
-    for (int k = 0; k < kSize; ++k) sum[k] = static_cast<float>(b[size_t(i) * kSize + k]);
+    Column sum = rounded(b + size_t(i) * kSize);
     for (size_t at = lower_.start[i]; at < lower_.start[i + 1]; ++at)
       sum -= times(&lower_.block[at * kEntries], &work_[size_t(lower_.column[at]) * kPadded]);
     store(sum, &work_[size_t(i) * kPadded]);
