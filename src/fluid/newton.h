@@ -28,6 +28,8 @@ class NewtonKrylov : public StageSolver {
   void renew() override { rebuild_ = true; }
 
  private:
+  double forcing() const;
+  static PetscErrorCode set_forcing(SNES, PetscInt iteration);
   static PetscErrorCode form_function(SNES, Vec x, Vec f, void* self);
   static PetscErrorCode form_jacobian(SNES, Vec x, Mat j, Mat p, void* self);
   static PetscErrorCode multiply(Mat, Vec x, Vec y);
@@ -45,6 +47,7 @@ class NewtonKrylov : public StageSolver {
   RoundOff round_off_;
   const StageEquation* equation_ = nullptr;
   double reference_ = 0, target_ = 0;
+  double forcing_ = 0;  ///< by how much the linear residual was last asked to fall
   int max_iterations_ = 0, min_iterations_ = 0;
   double started_ = 0;
   int krylov_before_ = 0;
