@@ -37,9 +37,10 @@ Json record(const Study& study, const StudyRow& row) {
   Json json = {{"run", row.point->name}};
   for (const auto& key : study.keys) json[key] = row.point->settings.at(key);
   json.update(cost_of(row));
+  static const StudyValue none;
   for (size_t i = 0; i < study.table.figures.size(); ++i) {
     const StudyFigure& f = study.table.figures[i];
-    const StudyValue v = row.values.empty() ? StudyValue() : row.values[i];
+    const StudyValue& v = row.values.empty() ? none : row.values[i];
     if (f.take != "curve") json[f.name] = or_null(v.value);
     json[f.name + "_error"] = or_null(v.error);
   }

@@ -103,7 +103,7 @@ class Chain {
 
 }  // namespace
 
-void BlockIlu::Triangle::allocate() { block = allocate_blocks(blocks()); }
+void BlockIlu::Triangle::allocate() { block = allocate_blocks(column.size()); }
 
 BlockIlu::BlockIlu(int n, const int* start, const int* column, int levels)
     : n_(n), given_start_(start, start + n + 1), given_column_(column, column + start[n]) {

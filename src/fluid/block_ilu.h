@@ -23,7 +23,6 @@ class BlockIlu {
     std::vector<size_t> start{0};
     std::vector<int> column;
     std::unique_ptr<float[]> block;  ///< by columns, one after the other
-    size_t blocks() const { return column.size(); }
     void allocate();
   };
   void find_pattern(const int* start, const int* column, int levels);

@@ -111,5 +111,5 @@ TEST_CASE("Factors can be made again, and tell of a block that has no inverse") 
   for (double& value : second) value *= 2;
   CHECK(difference(second, first) < 1e-6);
   for (int k = 0; k < 25; ++k) matrix.blocks[k] = 0;
-  if (matrix.column[0] == 0) CHECK_FALSE(ilu.factor(matrix.blocks.data()));
+  CHECK_FALSE(ilu.factor(matrix.blocks.data()));
 }
