@@ -132,7 +132,7 @@ struct SolverOptions {
   std::string preconditioner = "ilu";
   int ilu_levels = 1;
   std::string jacobian = "exact";
-  double newton_tolerance = 1e-3;
+  double newton_tolerance = 1e-3, truncation_fraction = 0;
   int newton_iterations = 12;
   int dual_time_iterations = 1000;
   double dual_time_cfl = 4;

@@ -202,6 +202,8 @@ void declare(V& v, SolverOptions& o) {
         {.doc = "Jacobian products by forward differentiation or by differences", .choices = {"exact", "difference"}});
   v.key("newton_tolerance", o.newton_tolerance,
         {.doc = "fall of the residual over a step's Newton iterations or pseudo-steps, against the rate of change of the flow", .above = 0, .max = 1});
+  v.key("truncation_fraction", o.truncation_fraction,
+        {.doc = "of a Crank-Nicolson step's truncation error: a residual that small is enough, even if newton_tolerance asks for less", .min = 0, .max = 1});
   v.key("newton_iterations", o.newton_iterations, {.doc = "Newton iterations before a step is halved", .min = 1});
   v.key("dual_time_iterations", o.dual_time_iterations, {.doc = "pseudo-steps of dual time before a step is halved", .min = 1});
   v.key("dual_time_cfl", o.dual_time_cfl,

@@ -62,6 +62,7 @@ void FlowCheckpoint::write(const std::filesystem::path& directory, const fluid::
   const auto remember = [&](const char* name, std::span<const double> all) {
     if (!all.empty()) out.array(name, rank_of(mesh_.comm) == 0 ? all : all.first(0), 1);
   };
+  remember("third_derivative", {&state.third, 1});
   remember("averages", memory.averages);
   remember("vehicle", memory.vehicle);
   remember("step_control", memory.step);
@@ -86,6 +87,8 @@ Memory FlowCheckpoint::read(const std::filesystem::path& directory, fluid::FlowS
   const auto recall = [&](const char* name) {
     return in.has_array(name) ? in.array(name, 1, 0, in.rows(name)) : std::vector<double>();
   };
+  const auto third = recall("third_derivative");
+  state.third = third.empty() ? 0 : third[0];
   return {recall("averages"), recall("vehicle"), recall("step_control")};
 }
 

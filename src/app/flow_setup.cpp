@@ -46,6 +46,7 @@ fluid::FlowOptions flow_options(const Case& c) {
   const bool goes_on = !c.time.start_from.empty() && wind_jump(c).isZero();
   o.start_steps = goes_on ? 0 : c.time.start_steps;
   o.damping = c.time.damping;
+  o.truncation_fraction = s.truncation_fraction;
   o.extrapolate = s.extrapolate;
   o.jacobian_lag = s.jacobian_lag;
   o.method = &by_name(fluid::kStageMethods, s.method);

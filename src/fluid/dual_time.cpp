@@ -49,12 +49,13 @@ void DualTime::pseudo_step(const StageEquation& equation, Vec q) {
   rational_update(first_, second_, q);
 }
 
-StageReport DualTime::solve(const StageEquation& equation, Vec q, double reference, int, int min_iterations) {
+StageReport DualTime::solve(const StageEquation& equation, Vec q, const StageScale& scale, int, int min_iterations) {
   const double started = MPI_Wtime(), floor = round_off_(equation.combination);
   set_pseudo_steps(equation, q);
   StageReport report;
   double norm = residual_norm(equation, q);
-  const double size = std::max(norm, reference), target = std::max(options_.tolerance * size, floor);
+  const double size = std::max(norm, scale.rate), target = std::max({options_.tolerance * size, scale.good_enough, floor});
+  if (scale.unmoved(norm, target)) min_iterations = 0;
   for (int i = 0;; ++i) {
     report.iterations.push_back({norm, 0, MPI_Wtime() - started});
     report.converged = norm <= (i < min_iterations ? floor : target);

@@ -18,7 +18,7 @@ class DualTime : public StageSolver {
   DualTime(EulerOperator& euler, const DualTimeOptions& options);
 
   /// Never less than solved, whatever max_newton says: a few pseudo-steps change little.
-  StageReport solve(const StageEquation& equation, Vec q, double reference, int max_newton,
+  StageReport solve(const StageEquation& equation, Vec q, const StageScale& scale, int max_newton,
                     int min_iterations) override;
 
  private:

@@ -13,6 +13,7 @@ struct FlowState {
   VecHandle previous;  ///< one accepted step earlier
   double time = 0;
   double last_step = 0;  ///< time since `previous`; 0: there is none
+  double third = 0;      ///< |V d³q/dt³| as estimated in the last step, 2-norm; 0: unknown
   long step = 0;
 };
 
@@ -20,6 +21,7 @@ struct FlowOptions {
   const TimeScheme* scheme = &kTimeSchemes[0];
   int start_steps = 0;      ///< backward-Euler steps first: Crank–Nicolson does not damp an impulsive start
   double damping = 0;       ///< w of (1 − w) Crank–Nicolson + w BDF2, see bdf2_coefficients
+  double truncation_fraction = 0;  ///< of a step's truncation error, where it is known, that its residual may have
   bool extrapolate = true;  ///< first guess by linear extrapolation in time
   int jacobian_lag = 1;     ///< steps between rebuilds of the preconditioner
   const StageMethod* method = &kStageMethods[0];
@@ -70,6 +72,8 @@ class FlowSolver {
   void explicit_state(const double* coefficients, int stages, double dt, Vec out);
   void predict(double fraction, double dt, Vec out) const;
   double rate_norm() const;
+  double third_derivative() const;
+  double good_enough() const;
 
   EulerOperator& euler_;
   FlowOptions options_;
@@ -78,7 +82,7 @@ class FlowSolver {
   VecHandle known_;
   std::vector<VecHandle> stages_;  ///< iterates
   std::vector<VecHandle> rates_;   ///< R_j of the stages that later ones need
-  std::vector<double> reference_;  ///< of each stage: what the residual is compared with
+  std::vector<StageScale> scales_;  ///< of each stage
   double dt_ = 0;                  ///< of the step begun
   StepReport report_;
 };

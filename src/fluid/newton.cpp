@@ -64,13 +64,13 @@ NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options)
   petsc(SNESSetFromOptions(snes_));
 }
 
-StageReport NewtonKrylov::solve(const StageEquation& equation, Vec q, double reference, int max_newton,
+StageReport NewtonKrylov::solve(const StageEquation& equation, Vec q, const StageScale& scale, int max_newton,
                                 int min_iterations) {
   equation_ = &equation;
   max_iterations_ = max_newton > 0 ? max_newton : options_.max_iterations;
   min_iterations_ = min_iterations;
   petsc(SNESSetTolerances(snes_, 0, 0, 0, max_iterations_, PETSC_MAX_INT));
-  reference_ = reference;
+  scale_ = scale;
   report_ = {};
   krylov_before_ = 0;
   started_ = MPI_Wtime();
@@ -92,10 +92,13 @@ StageReport NewtonKrylov::solve(const StageEquation& equation, Vec q, double ref
 double NewtonKrylov::forcing() const {
   constexpr double kGamma = 0.9, kMemory = 0.1, kLargest = 0.3;
   const auto& done = report_.iterations;
-  if (!options_.eisenstat_walker || done.size() < 2) return options_.krylov_tolerance;
-  const double now = done.back().residual, ratio = now / done[done.size() - 2].residual,
-               last = kGamma * forcing_ * forcing_;
-  const double convergence = std::max(kGamma * ratio * ratio, last > kMemory ? last : 0);
+  if (!options_.eisenstat_walker) return options_.krylov_tolerance;
+  const double now = done.back().residual;
+  double convergence = options_.krylov_tolerance;
+  if (done.size() > 1) {
+    const double ratio = now / done[done.size() - 2].residual, last = kGamma * forcing_ * forcing_;
+    convergence = std::max(kGamma * ratio * ratio, last > kMemory ? last : 0);
+  }
   return std::min(std::max(convergence, 0.5 * target_ / now), kLargest);
 }
 
@@ -179,14 +182,16 @@ PetscErrorCode NewtonKrylov::test_convergence(SNES snes, PetscInt iteration, Pet
     self.krylov_before_ = static_cast<int>(krylov);
     const double floor = self.round_off_(self.equation_->combination);
     if (iteration == 0) {
-      self.target_ = std::max(self.options_.tolerance * std::max(norm, self.reference_), floor);
+      const auto& scale = self.scale_;
+      self.target_ = std::max({self.options_.tolerance * std::max(norm, scale.rate), scale.good_enough, floor});
+      if (scale.unmoved(norm, self.target_)) self.min_iterations_ = 0;
     }
     *reason = SNES_CONVERGED_ITERATING;
     if (!std::isfinite(norm))
       *reason = SNES_DIVERGED_FNORM_NAN;
     else if (norm <= (iteration < self.min_iterations_ ? floor : self.target_))
       *reason = SNES_CONVERGED_FNORM_RELATIVE;
-    else if (norm > kDivergence * std::max(self.report_.iterations.front().residual, self.reference_))
+    else if (norm > kDivergence * std::max(self.report_.iterations.front().residual, self.scale_.rate))
       *reason = SNES_DIVERGED_DTOL;
     else if (iteration >= self.max_iterations_)
       *reason = SNES_DIVERGED_MAX_IT;

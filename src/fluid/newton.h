@@ -23,7 +23,7 @@ class NewtonKrylov : public StageSolver {
   NewtonKrylov(const NewtonKrylov&) = delete;
   NewtonKrylov& operator=(const NewtonKrylov&) = delete;
 
-  StageReport solve(const StageEquation& equation, Vec q, double reference, int max_newton, int min_iterations) override;
+  StageReport solve(const StageEquation& equation, Vec q, const StageScale& scale, int max_newton, int min_iterations) override;
   /// The preconditioner.
   void renew() override { rebuild_ = true; }
 
@@ -46,7 +46,8 @@ class NewtonKrylov : public StageSolver {
   SnesHandle snes_;
   RoundOff round_off_;
   const StageEquation* equation_ = nullptr;
-  double reference_ = 0, target_ = 0;
+  StageScale scale_;
+  double target_ = 0;
   double forcing_ = 0;  ///< by how much the linear residual was last asked to fall
   int max_iterations_ = 0, min_iterations_ = 0;
   double started_ = 0;

@@ -1,5 +1,6 @@
 // The equation of one implicit stage, and what solves it.
 #pragma once
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,14 +29,27 @@ struct StageReport {
   std::vector<StageIteration> iterations;  ///< entry 0: the starting residual
 };
 
+/// What the residual of a stage is held against.
+struct StageScale {
+  double rate = 0;         ///< how fast the flow changes, |V dq/dt|
+  double good_enough = 0;  ///< a residual that need not be less
+  double before = -1;      ///< residual of the same q under the frames it was last solved with; below 0: there are none
+
+  /// The flow's answer to the frames' move since then is less than the error that Newton may leave.
+  bool unmoved(double residual, double target) const {
+    return before >= 0 && std::abs(residual - before) <= 0.1 * target;
+  }
+};
+
 class StageSolver {
  public:
   virtual ~StageSolver() = default;
 
-  /// q: first guess in, solution out. Converged: |F| <= tolerance * max(|F(guess)|, reference), or at round-off.
-  /// With min_iterations > 0 only round-off is good enough before them. max_newton, 0: what the options say, is obeyed
+  /// q: first guess in, solution out. Converged: |F| <= tolerance * max(|F(guess)|, scale.rate), or good enough, or at round-off.
+  /// With min_iterations > 0 only round-off is good enough before them, unless q is solved but for a move that it does not feel
+  /// (StageScale::unmoved). max_newton, 0: what the options say, is obeyed
   /// where few iterations bring q closer.
-  virtual StageReport solve(const StageEquation& equation, Vec q, double reference, int max_newton = 0,
+  virtual StageReport solve(const StageEquation& equation, Vec q, const StageScale& scale, int max_newton = 0,
                             int min_iterations = 0) = 0;
   /// What is kept from one solve to the next is made anew.
   virtual void renew() {}
