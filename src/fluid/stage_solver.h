@@ -37,7 +37,7 @@ struct StageScale {
 
   /// The flow's answer to the frames' move since then is less than the error that Newton may leave.
   bool unmoved(double residual, double target) const {
-    return before >= 0 && std::abs(residual - before) <= 0.1 * target;
+    return before >= 0 && std::abs(residual - before) <= 0.01 * target;
   }
 };
 
