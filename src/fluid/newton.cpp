@@ -88,13 +88,14 @@ StageReport NewtonKrylov::solve(const StageEquation& equation, Vec q, const Stag
 
 /// Eisenstat and Walker, SIAM J. Sci. Comput. 17 (1996) 16, choice 2 with its safeguard, and Kelley's against solving for
 /// more than is left to Newton's target (Iterative Methods for Linear and Nonlinear Equations, 1995, eq. 6.20). PETSc's
-/// Eisenstat–Walker lacks the latter: a residual one tenth above the target was brought a hundred times below.
+/// Eisenstat–Walker lacks the latter: a residual one tenth above the target was brought a hundred times below. The first
+/// iteration goes for the target: from an extrapolated start the equation is almost linear.
 double NewtonKrylov::forcing() const {
-  constexpr double kGamma = 0.9, kMemory = 0.1, kLargest = 0.3;
+  constexpr double kFirst = 0.01, kGamma = 0.9, kMemory = 0.1, kLargest = 0.3;
   const auto& done = report_.iterations;
   if (!options_.eisenstat_walker) return options_.krylov_tolerance;
   const double now = done.back().residual;
-  double convergence = options_.krylov_tolerance;
+  double convergence = kFirst;
   if (done.size() > 1) {
     const double ratio = now / done[done.size() - 2].residual, last = kGamma * forcing_ * forcing_;
     convergence = std::max(kGamma * ratio * ratio, last > kMemory ? last : 0);

@@ -12,7 +12,7 @@ struct NewtonOptions {
   double tolerance = 1e-3;        ///< of the residual, relative to the rate of change of the flow
   int max_iterations = 12;
   bool eisenstat_walker = true;
-  double krylov_tolerance = 0.1;  ///< without Eisenstat–Walker; with it: of the first iteration
+  double krylov_tolerance = 0.1;  ///< without Eisenstat–Walker
   int krylov_iterations = 200;
   int krylov_restart = 30;
 };
