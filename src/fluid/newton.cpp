@@ -91,7 +91,7 @@ StageReport NewtonKrylov::solve(const StageEquation& equation, Vec q, const Stag
 /// Eisenstat–Walker lacks the latter: a residual one tenth above the target was brought a hundred times below. The first
 /// iteration goes for the target: from an extrapolated start the equation is almost linear.
 double NewtonKrylov::forcing() const {
-  constexpr double kFirst = 0.01, kGamma = 0.9, kMemory = 0.1, kLargest = 0.3;
+  constexpr double kFirst = 0.001, kGamma = 0.9, kMemory = 0.1, kLargest = 0.3;
   const auto& done = report_.iterations;
   if (!options_.eisenstat_walker) return options_.krylov_tolerance;
   const double now = done.back().residual;
@@ -100,7 +100,7 @@ double NewtonKrylov::forcing() const {
     const double ratio = now / done[done.size() - 2].residual, last = kGamma * forcing_ * forcing_;
     convergence = std::max(kGamma * ratio * ratio, last > kMemory ? last : 0);
   }
-  return std::min(std::max(convergence, 0.5 * target_ / now), kLargest);
+  return std::min(std::max(convergence, 0.8 * target_ / now), kLargest);
 }
 
 PetscErrorCode NewtonKrylov::set_forcing(SNES snes, PetscInt) {
