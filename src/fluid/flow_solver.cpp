@@ -82,7 +82,7 @@ double FlowSolver::rate_norm() const {
 /// Δt_n Δt_{n−1}/6 of it.
 double FlowSolver::third_derivative() const {
   const TimeScheme& scheme = current_scheme();
-  if (!scheme.implicit || scheme.a[0][0] != 0 || state_.last_step == 0) return 0;
+  if (options_.truncation_fraction == 0 || !scheme.implicit || scheme.a[0][0] != 0 || state_.last_step == 0) return 0;
   const double r = dt_ / state_.last_step, forward = 1 / (dt_ * (1 + r)), backward = r / (state_.last_step * (1 + r));
   const double *next = nullptr, *now = nullptr, *before = nullptr, *rate = nullptr;
   petsc(VecGetArrayRead(stages_.back(), &next));
@@ -106,10 +106,10 @@ double FlowSolver::third_derivative() const {
 
 /// The residual that changes the step by truncation_fraction of what the scheme's own error does, (1 + 3w)/12 Δt² V d³q/dt³
 /// with w of BDF2; never more than a tenth of the rate of change.
-double FlowSolver::good_enough() const {
+double FlowSolver::good_enough(double rate) const {
   constexpr double kLargest = 0.1;
   const double truncation = (1 + 3 * bdf2_weight()) / 12 * dt_ * dt_ * state_.third;
-  return std::min(options_.truncation_fraction * truncation, kLargest * rate_norm());
+  return std::min(options_.truncation_fraction * truncation, kLargest * rate);
 }
 
 /// out = q_n + fraction Δt (q_n − q_{n−1}) / Δt_{n−1}, or q_n where that would not be a gas.
@@ -165,7 +165,8 @@ void FlowSolver::begin(const FrameFunction& frames, double dt) {
   if (stage_solver_ && (!report_.accepted || state_.step % options_.jacobian_lag == 0)) stage_solver_->renew();
   dt_ = dt;
   report_ = {};
-  scales_.assign(scheme.stages, scheme.implicit ? StageScale{rate_norm(), good_enough()} : StageScale{});
+  const double rate = scheme.implicit ? rate_norm() : 0;
+  scales_.assign(scheme.stages, {.rate = rate, .good_enough = good_enough(rate)});
   const bool starts_at_known = scheme.a[0][0] == 0;
   if (starts_at_known) euler_.residual(state_.q, frames(state_.time), rates_[0]);
   for (int i = starts_at_known ? 1 : 0; scheme.implicit && i < scheme.stages; ++i)

@@ -13,7 +13,7 @@ struct FlowState {
   VecHandle previous;  ///< one accepted step earlier
   double time = 0;
   double last_step = 0;  ///< time since `previous`; 0: there is none
-  double third = 0;      ///< |V d³q/dt³| as estimated in the last step, 2-norm; 0: unknown
+  double third = 0;      ///< |V d³q/dt³| as estimated in the last step, 2-norm; 0: unknown or not asked for
   long step = 0;
 };
 
@@ -73,7 +73,7 @@ class FlowSolver {
   void predict(double fraction, double dt, Vec out) const;
   double rate_norm() const;
   double third_derivative() const;
-  double good_enough() const;
+  double good_enough(double rate) const;
 
   EulerOperator& euler_;
   FlowOptions options_;
