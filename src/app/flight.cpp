@@ -147,7 +147,8 @@ VectorXd Flight::loads(const VehicleState& vehicle) { return air(solver_.state()
 void Flight::begin(const coupling::Trajectory& motion, double) { solver_.begin(frame_function(motion), dt_); }
 
 coupling::FluidSide::Answer Flight::iterate(const coupling::Trajectory& motion, int newton) {
-  // one iteration at least where the coupling iterates: the error of a flow that is left alone would hide the loads' answer
+  // one iteration at least where the coupling iterates and the motion is felt: the error of a flow that is left alone would hide
+  // the loads' answer
   report_ = solver_.iterate(frame_function(motion), newton, newton > 0);
   Answer answer{.converged = report_.accepted, .failed = report_.failed, .reason = report_.reason, .loads = {}};
   if (!answer.failed) answer.loads = air(solver_.iterate(), motion(1)).loads;

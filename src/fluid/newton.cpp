@@ -89,7 +89,7 @@ StageReport NewtonKrylov::solve(const StageEquation& equation, Vec q, const Stag
 /// Eisenstat and Walker, SIAM J. Sci. Comput. 17 (1996) 16, choice 2 with its safeguard, and Kelley's against solving for
 /// more than is left to Newton's target (Iterative Methods for Linear and Nonlinear Equations, 1995, eq. 6.20). PETSc's
 /// Eisenstat–Walker lacks the latter: a residual one tenth above the target was brought a hundred times below. The first
-/// iteration goes for the target: from an extrapolated start the equation is almost linear.
+/// iteration goes for the target, by kFirst at most: from an extrapolated start the equation is almost linear.
 double NewtonKrylov::forcing() const {
   constexpr double kFirst = 0.001, kGamma = 0.9, kMemory = 0.1, kLargest = 0.3;
   const auto& done = report_.iterations;

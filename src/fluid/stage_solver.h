@@ -45,10 +45,9 @@ class StageSolver {
  public:
   virtual ~StageSolver() = default;
 
-  /// q: first guess in, solution out. Converged: |F| <= tolerance * max(|F(guess)|, scale.rate), or good enough, or at round-off.
-  /// With min_iterations > 0 only round-off is good enough before them, unless q is solved but for a move that it does not feel
-  /// (StageScale::unmoved). max_newton, 0: what the options say, is obeyed
-  /// where few iterations bring q closer.
+  /// q: first guess in, solution out. Converged: |F| <= tolerance * max(|F(guess)|, scale.rate), or good enough, or at
+  /// round-off. With min_iterations > 0 only round-off will do before them, unless the frames' move is not felt
+  /// (StageScale::unmoved). max_newton, 0: what the options say, is obeyed where few iterations bring q closer.
   virtual StageReport solve(const StageEquation& equation, Vec q, const StageScale& scale, int max_newton = 0,
                             int min_iterations = 0) = 0;
   /// What is kept from one solve to the next is made anew.

@@ -154,8 +154,11 @@ TEST_CASE("Newton's method that stops at a fraction of the truncation error leav
 }
 
 TEST_CASE("preconditioners, kinds of products and ranks lead to the same flow, and conserve mass", "[flow]") {
+  const bool closed = GENERATE(false, true);
+  CAPTURE(closed);
   const mesh::Mesh mesh = mesh::read_mesh(make_mesh("cube"), 1.0, PETSC_COMM_WORLD);
-  const FlowModel model = closed_box(mesh);
+  FlowModel model = closed ? closed_box(mesh) : model_for(mesh, {{"wall", BoundaryKind::wall}});
+  model.far = {1.0, 0, 0.3, 0, 1 / 1.4};
   const auto run = [&](const Preconditioner& p, bool exact, bool eisenstat_walker) {
     CAPTURE(p.name, exact, eisenstat_walker);
     EulerOperator euler(mesh, model);
@@ -166,14 +169,14 @@ TEST_CASE("preconditioners, kinds of products and ranks lead to the same flow, a
     options.newton.tolerance = 1e-11;
     FlowSolver solver(euler, options);
     const FrameFunction frames = frames_of(mesh, {});
-    set_initial(euler, frames(0), vortex_state({0.5, 0.5, 0}, 1, 0.15, {1.0, 0, 0.3, 0, 1 / 1.4}, 1.4), solver.state().q);
+    set_initial(euler, frames(0), vortex_state({0.5, 0.5, 0}, 1, 0.15, model.far, 1.4), solver.state().q);
     const double mass = totals(euler, solver.state().q)[0];
     for (int step = 0; step < 5; ++step) {
       const StepReport report = solver.advance(frames, 0.1);
       INFO(report.reason);
       REQUIRE(report.accepted);
     }
-    CHECK(std::abs(totals(euler, solver.state().q)[0] - mass) < 1e-11 * mass);
+    if (closed) CHECK(std::abs(totals(euler, solver.state().q)[0] - mass) < 1e-11 * mass);
     return std::move(solver.state().q);
   };
   const VecHandle reference = run(preconditioner("lu"), true, false);
