@@ -195,7 +195,7 @@ void declare(V& v, SolverOptions& o) {
                 "(rational Runge-Kutta) and uses none of the keys of preconditioner, Jacobian and Krylov",
          .choices = {"newton_krylov", "dual_time"}});
   v.key("preconditioner", o.preconditioner,
-        {.doc = "preconditioner; ilu per rank, asm with overlap, rrk: rational Runge-Kutta steps, rrk-multigrid: aggregation multigrid smoothed by them",
+        {.doc = "preconditioner; ilu per rank, asm with overlap, rrk: rational Runge-Kutta steps, rrk-multigrid: aggregation multigrid smoothed by them, over ilu",
          .choices = {"ilu", "asm", "rrk", "rrk-multigrid", "point_block_jacobi", "lu", "none"}});
   v.key("ilu_levels", o.ilu_levels, {.doc = "levels of fill of the incomplete factors", .min = 0, .max = 10});
   v.key("jacobian", o.jacobian,
@@ -213,7 +213,9 @@ void declare(V& v, SolverOptions& o) {
         {.doc = "fall of the linear residual when eisenstat_walker is false", .above = 0, .max = 1});
   v.key("krylov_iterations", o.krylov_iterations, {.doc = "Krylov iterations per Newton iteration, at most", .min = 1});
   v.key("krylov_restart", o.krylov_restart, {.doc = "Krylov vectors kept before a restart", .min = 1});
-  v.key("jacobian_lag", o.jacobian_lag, {.doc = "steps between rebuilds of the preconditioner", .min = 1});
+  v.key("jacobian_lag", o.jacobian_lag,
+        {.doc = "steps that a preconditioner serves at most; it is made anew after a zone has turned by 30 degrees, a step has changed by a "
+                "quarter or was refused, and after each checkpoint", .min = 1});
   v.key("extrapolate", o.extrapolate, {.doc = "first guess of a step extrapolated from the last two"});
   v.key("max_halvings", o.max_halvings, {.doc = "halvings of a failed step before the run stops", .min = 0, .max = 30});
 }

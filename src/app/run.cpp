@@ -121,6 +121,7 @@ void Run::give_up(double dt) {
 void Run::write_checkpoint() {
   checkpoint_.write(directory_, solver_.state(), mover_->frames(),
                     {rotors_->state(), mover_->state(), control_.state()});
+  solver_.renew();  // a run that is restarted from here must do the same
   saved_ = true;
 }
 

@@ -1,7 +1,8 @@
 #include "fluid/block_jacobian.h"
 
 #include <algorithm>
-#include <stdexcept>
+
+#include "fluid/block_matrix.h"
 
 namespace windhover::fluid {
 
@@ -10,34 +11,6 @@ using mesh::Index;
 namespace {
 
 constexpr int kEntries = kVariables * kVariables;
-
-/// Block offsets by (row, column) of a sequential BAIJ matrix.
-class BlockPattern {
- public:
-  explicit BlockPattern(Mat matrix) : matrix_(matrix) {
-    PetscBool done = PETSC_FALSE;
-    petsc(MatGetRowIJ(matrix_, 0, PETSC_FALSE, PETSC_TRUE, &rows_, &start_, &column_, &done));
-    if (!done) throw std::logic_error("no access to the pattern of a block matrix");
-  }
-  ~BlockPattern() {
-    PetscBool done = PETSC_FALSE;
-    MatRestoreRowIJ(matrix_, 0, PETSC_FALSE, PETSC_TRUE, &rows_, &start_, &column_, &done);
-  }
-  BlockPattern(const BlockPattern&) = delete;
-  BlockPattern& operator=(const BlockPattern&) = delete;
-
-  int find(Index row, Index column) const {
-    const PetscInt* end = column_ + start_[row + 1];
-    const PetscInt* found = std::lower_bound(column_ + start_[row], end, column);
-    if (found == end || *found != column) throw std::logic_error("a face is not in the block matrix");
-    return static_cast<int>(found - column_);
-  }
-
- private:
-  Mat matrix_;
-  PetscInt rows_ = 0;
-  const PetscInt *start_ = nullptr, *column_ = nullptr;
-};
 
 }  // namespace
 
@@ -69,20 +42,15 @@ void BlockJacobian::preallocate(const mesh::Mesh& mesh) {
 }
 
 void BlockJacobian::find_slots(const mesh::Mesh& mesh) {
-  const PetscInt* outside_columns = parts().outside_columns;
-  const BlockPattern inside(parts().inside);
+  const BlockParts parts = block_parts(matrix_);
+  const BlockPattern inside(parts.inside);
   std::optional<BlockPattern> outside;
-  PetscInt n_outside = 0;
-  if (parts().outside) {
-    outside.emplace(parts().outside);
-    petsc(MatGetSize(parts().outside, nullptr, &n_outside));
-    n_outside /= kVariables;
-  }
+  if (parts.outside) outside.emplace(parts.outside);
   const auto slot = [&](Index row, Index column) -> Slot {
     if (row >= mesh.n_owned) return {};
     if (column < mesh.n_owned) return {inside.find(row, column), false};
-    const PetscInt* end = outside_columns + n_outside;
-    const auto local = std::lower_bound(outside_columns, end, mesh.global_cell[column]) - outside_columns;
+    const PetscInt* end = parts.outside_columns + parts.n_outside;
+    const auto local = std::lower_bound(parts.outside_columns, end, mesh.global_cell[column]) - parts.outside_columns;
     return {outside->find(row, static_cast<Index>(local)), true};
   };
   for (const auto& b : mesh.faces)
@@ -94,18 +62,10 @@ void BlockJacobian::find_slots(const mesh::Mesh& mesh) {
   for (Index c = 0; c < mesh.n_owned; ++c) diagonal_.push_back(inside.find(c, c));
 }
 
-BlockJacobian::Parts BlockJacobian::parts() const {
-  PetscBool parallel = PETSC_FALSE;
-  petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(Mat(matrix_)), MATMPIBAIJ, &parallel));
-  Parts p{matrix_, nullptr, nullptr};
-  if (parallel) petsc(MatMPIBAIJGetSeqBAIJ(matrix_, &p.inside, &p.outside, &p.outside_columns));
-  return p;
-}
-
 void BlockJacobian::begin() {
   petsc(MatZeroEntries(matrix_));
-  petsc(MatSeqBAIJGetArray(parts().inside, &inside_));
-  if (parts().outside) petsc(MatSeqBAIJGetArray(parts().outside, &outside_));
+  petsc(MatSeqBAIJGetArray(block_parts(matrix_).inside, &inside_));
+  if (block_parts(matrix_).outside) petsc(MatSeqBAIJGetArray(block_parts(matrix_).outside, &outside_));
 }
 
 void BlockJacobian::add_face(size_t face, int side, const double* block, double scale) {
@@ -129,8 +89,8 @@ void BlockJacobian::add_identity(Index cell, double value) {
 }
 
 void BlockJacobian::finish() {
-  if (inside_) petsc(MatSeqBAIJRestoreArray(parts().inside, &inside_));
-  if (outside_) petsc(MatSeqBAIJRestoreArray(parts().outside, &outside_));
+  if (inside_) petsc(MatSeqBAIJRestoreArray(block_parts(matrix_).inside, &inside_));
+  if (outside_) petsc(MatSeqBAIJRestoreArray(block_parts(matrix_).outside, &outside_));
   inside_ = outside_ = nullptr;
   petsc(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
   petsc(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));

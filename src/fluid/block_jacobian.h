@@ -38,12 +38,6 @@ class BlockJacobian {
     int offset = -1;       ///< of the block in its array, in blocks; −1: not this rank's row
     bool outside = false;  ///< in the off-process part
   };
-  /// The sequential matrices inside: asked for anew each time, because PETSc replaces them in conversions.
-  struct Parts {
-    Mat inside, outside;              ///< outside: nullptr on one rank
-    const PetscInt* outside_columns;  ///< global block column of each of its own
-  };
-  Parts parts() const;
   double* block_at(const Slot& s) { return (s.outside ? outside_ : inside_) + size_t(s.offset) * 25; }
   void preallocate(const mesh::Mesh& mesh);
   void find_slots(const mesh::Mesh& mesh);

@@ -160,9 +160,23 @@ bool FlowSolver::solve_stage(const TimeScheme& scheme, int i, const FrameFunctio
   return report.converged;
 }
 
+/// Whether the preconditioner's Jacobian is too old for a step that ends at these frames.
+bool FlowSolver::stale(const Frames& end, double dt) const {
+  constexpr double kTurn = 0.55;      // radians: momentum has turned with the zone, Krylov iterations grow beyond it
+  constexpr double kStretch = 1.25;   // of the time step
+  if (!report_.accepted || jacobian_.frames.empty() || state_.step - jacobian_.step >= options_.jacobian_lag) return true;
+  if (dt > kStretch * jacobian_.dt || jacobian_.dt > kStretch * dt) return true;
+  for (size_t z = 0; z < end.size(); ++z)
+    if ((jacobian_.frames[z].R.transpose() * end[z].R).trace() < 1 + 2 * std::cos(kTurn)) return true;
+  return false;
+}
+
 void FlowSolver::begin(const FrameFunction& frames, double dt) {
   const TimeScheme& scheme = current_scheme();
-  if (stage_solver_ && (!report_.accepted || state_.step % options_.jacobian_lag == 0)) stage_solver_->renew();
+  if (const Frames end = frames(state_.time + dt); stage_solver_ && stale(end, dt)) {
+    stage_solver_->renew();
+    jacobian_ = {end, dt, state_.step};
+  }
   dt_ = dt;
   report_ = {};
   const double rate = scheme.implicit ? rate_norm() : 0;

@@ -23,7 +23,7 @@ struct FlowOptions {
   double damping = 0;       ///< w of (1 − w) Crank–Nicolson + w BDF2, see bdf2_coefficients
   double truncation_fraction = 0;  ///< of a step's truncation error, where it is known, that its residual may have
   bool extrapolate = true;  ///< first guess by linear extrapolation in time
-  int jacobian_lag = 1;     ///< steps between rebuilds of the preconditioner
+  int jacobian_lag = 1;     ///< steps that a preconditioner serves at most
   const StageMethod* method = &kStageMethods[0];
   NewtonOptions newton;
   DualTimeOptions dual_time;
@@ -61,12 +61,15 @@ class FlowSolver {
   /// The latest iterate: what the state becomes if it is accepted.
   Vec iterate() const { return stages_.back(); }
   void accept();
+  /// The next step makes its preconditioner anew, as one after a restart does.
+  void renew() { jacobian_ = {}; }
   /// Order in time of the step begun.
   int order() const { return current_scheme().order; }
 
  private:
   const TimeScheme& current_scheme() const;
   double bdf2_weight() const;
+  bool stale(const Frames& end, double dt) const;
   bool solve_stage(const TimeScheme& scheme, int i, const FrameFunction& frames, int max_newton, int min_iterations);
   void iterate_explicit(const TimeScheme& scheme, const FrameFunction& frames);
   void explicit_state(const double* coefficients, int stages, double dt, Vec out);
@@ -84,6 +87,11 @@ class FlowSolver {
   std::vector<VecHandle> rates_;   ///< R_j of the stages that later ones need
   std::vector<StageScale> scales_;  ///< of each stage
   double dt_ = 0;                  ///< of the step begun
+  struct {
+    Frames frames;  ///< at the end of the step for which it was made; empty: there is none
+    double dt = 0;
+    long step = 0;
+  } jacobian_;  ///< of the preconditioner
   StepReport report_;
 };
 

@@ -58,9 +58,7 @@ NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options)
   petsc(KSPGMRESSetRestart(ksp, options_.krylov_restart));
   petsc(KSPSetTolerances(ksp, options_.krylov_tolerance, 0, PETSC_DEFAULT, options_.krylov_iterations));
   petsc(KSPGetPC(ksp, &pc));
-  int ranks = 1;
-  MPI_Comm_size(mesh.comm, &ranks);
-  options_.preconditioner->set_up(pc, options_.ilu_levels, ranks);
+  options_.preconditioner->set_up(pc, options_.ilu_levels);
   petsc(SNESSetFromOptions(snes_));
 }
 

@@ -8,13 +8,13 @@ namespace windhover::fluid {
 
 struct Preconditioner {
   const char* name;
-  bool assembled;                                    ///< needs the first-order Jacobian
-  bool point_matrix;                                 ///< wants it entry by entry (AIJ), not in blocks
-  void (*set_up)(PC pc, int ilu_levels, int ranks);  ///< called once; solvers' options still override
+  bool assembled;                         ///< needs the first-order Jacobian
+  bool point_matrix;                      ///< wants it entry by entry (AIJ), not in blocks
+  void (*set_up)(PC pc, int ilu_levels);  ///< called once; solvers' options still override
 };
 
 /// ilu (each rank's own part), asm (overlap one), rrk (a few rational Runge–Kutta steps), rrk-multigrid (aggregation
-/// multigrid smoothed by them, UMFPACK on the coarsest level), point_block_jacobi, lu (UMFPACK, whole problem on every rank), none.
+/// multigrid smoothed by them, multigrid.h), point_block_jacobi, lu (UMFPACK, whole problem on every rank), none.
 extern const Preconditioner kPreconditioners[7];
 
 /// UserError naming the valid ones when there is no such one.

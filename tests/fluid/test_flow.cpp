@@ -159,14 +159,15 @@ TEST_CASE("preconditioners, kinds of products and ranks lead to the same flow, a
   const mesh::Mesh mesh = mesh::read_mesh(make_mesh("cube"), 1.0, PETSC_COMM_WORLD);
   FlowModel model = closed ? closed_box(mesh) : model_for(mesh, {{"wall", BoundaryKind::wall}});
   model.far = {1.0, 0, 0.3, 0, 1 / 1.4};
-  const auto run = [&](const Preconditioner& p, bool exact, bool eisenstat_walker) {
-    CAPTURE(p.name, exact, eisenstat_walker);
+  const auto run = [&](const Preconditioner& p, bool exact, bool eisenstat_walker, int lag = 1) {
+    CAPTURE(p.name, exact, eisenstat_walker, lag);
     EulerOperator euler(mesh, model);
     FlowOptions options = tight("crank_nicolson");
     options.newton.preconditioner = &p;
     options.newton.exact_jacobian = exact;
     options.newton.eisenstat_walker = eisenstat_walker;
     options.newton.tolerance = 1e-11;
+    options.jacobian_lag = lag;
     FlowSolver solver(euler, options);
     const FrameFunction frames = frames_of(mesh, {});
     set_initial(euler, frames(0), vortex_state({0.5, 0.5, 0}, 1, 0.15, model.far, 1.4), solver.state().q);
@@ -186,6 +187,8 @@ TEST_CASE("preconditioners, kinds of products and ranks lead to the same flow, a
   }
   CHECK(distance(run(preconditioner("ilu"), false, false), reference, NORM_INFINITY) < 1e-9);
   CHECK(distance(run(preconditioner("ilu"), true, true), reference, NORM_INFINITY) < 1e-9);
+  CHECK(distance(run(preconditioner("ilu"), true, true, 3), reference, NORM_INFINITY) < 1e-9);
+  CHECK(distance(run(preconditioner("rrk-multigrid"), true, true, 3), reference, NORM_INFINITY) < 1e-9);
 }
 
 TEST_CASE("a step that cannot be solved is refused and leaves the state as it was", "[flow]") {
