@@ -162,7 +162,7 @@ bool FlowSolver::solve_stage(const TimeScheme& scheme, int i, const FrameFunctio
 
 /// Whether the preconditioner's Jacobian is too old for a step that ends at these frames.
 bool FlowSolver::stale(const Frames& end, double dt) const {
-  constexpr double kTurn = 0.55;      // radians: momentum has turned with the zone, Krylov iterations grow beyond it
+  constexpr double kTurn = 0.17;      // radians: momentum turns with the zone, and small cells feel a step of 10° more
   constexpr double kStretch = 1.25;   // of the time step
   if (!report_.accepted || jacobian_.frames.empty() || state_.step - jacobian_.step >= options_.jacobian_lag) return true;
   if (dt > kStretch * jacobian_.dt || jacobian_.dt > kStretch * dt) return true;
