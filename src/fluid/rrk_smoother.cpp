@@ -40,7 +40,7 @@ PetscErrorCode solve(KSP ksp) {
       petsc(MatMult(matrix, g1, residual));
       petsc(PCApply(ksp->pc, residual, g2));
       petsc(VecScale(g1, step));
-      petsc(VecAYPX(g2, -0.5 * step * step, g1));  // W(z + g1/2) = g1 − step M⁻¹ A g1 / 2
+      petsc(VecAYPX(g2, -0.5 * step * step, g1));  // step W(z + g1/2), g1 = step W(z)
       rational_update(g1, g2, z);
     }
     ksp->reason = KSP_CONVERGED_ITS;
