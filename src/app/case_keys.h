@@ -214,8 +214,8 @@ void declare(V& v, SolverOptions& o) {
   v.key("krylov_iterations", o.krylov_iterations, {.doc = "Krylov iterations per Newton iteration, at most", .min = 1});
   v.key("krylov_restart", o.krylov_restart, {.doc = "Krylov vectors kept before a restart", .min = 1});
   v.key("jacobian_lag", o.jacobian_lag,
-        {.doc = "steps that a preconditioner serves at most; it is made anew after a zone has turned by 10 degrees, a step has changed by a "
-                "quarter or was refused, and after each checkpoint", .min = 1});
+        {.doc = "steps that a preconditioner serves at most; it is made anew when its age has cost what making it costs, a step has changed "
+                "by a quarter or was refused, and after each checkpoint", .min = 1});
   v.key("extrapolate", o.extrapolate, {.doc = "first guess of a step extrapolated from the last two"});
   v.key("max_halvings", o.max_halvings, {.doc = "halvings of a failed step before the run stops", .min = 0, .max = 30});
 }

@@ -24,15 +24,40 @@ Column load(const float* p) {
 }
 void store(const Column& c, float* p) { std::memcpy(p, &c, sizeof c); }
 
+using Bfloat16 = std::uint16_t;
+
+Column load(const Bfloat16* p) {
+  typedef Bfloat16 Halves __attribute__((vector_size(16)));
+  typedef std::uint32_t Wholes __attribute__((vector_size(32)));
+  Halves halves;
+  std::memcpy(&halves, p, sizeof halves);
+  const Wholes bits = __builtin_convertvector(halves, Wholes) << 16;
+  Column c;
+  std::memcpy(&c, &bits, sizeof c);
+  return c;
+}
+
+/// To nearest; what is not finite does not count, the pivots tell.
+void store(const Column& c, Bfloat16* p) {
+  typedef std::uint32_t Wholes __attribute__((vector_size(32)));
+  typedef Bfloat16 Halves __attribute__((vector_size(16)));
+  Wholes bits;
+  std::memcpy(&bits, &c, sizeof bits);
+  const Halves halves = __builtin_convertvector((bits + 0x7fff + (bits >> 16 & 1)) >> 16, Halves);
+  std::memcpy(p, &halves, kSize * sizeof(Bfloat16));
+}
+
 /// Blocks, and room for what is read after the last.
-std::unique_ptr<float[]> allocate_blocks(size_t count) {
-  auto blocks = std::make_unique<float[]>(count * kEntries + kPadded);
-  use_large_pages(blocks.get(), count * kEntries * sizeof(float));
+template <class Number>
+std::unique_ptr<Number[]> allocate_blocks(size_t count) {
+  auto blocks = std::make_unique<Number[]>(count * kEntries + kPadded);
+  use_large_pages(blocks.get(), count * kEntries * sizeof(Number));
   return blocks;
 }
 
 /// block · x
-inline Column times(const float* block, const float* x) {
+template <class Number>
+inline Column times(const Number* block, const float* x) {
   Column sum = load(block) * x[0];
   for (int k = 1; k < kSize; ++k) sum += load(block + kSize * k) * x[k];
   return sum;
@@ -56,8 +81,17 @@ Column rounded(const double* column) {
   return __builtin_convertvector(wide, Column);
 }
 
-void pack(const Padded& from, float* to) {
-  for (int k = 0; k < kSize; ++k) std::memcpy(to + kSize * k, &from.column[k], kSize * sizeof(float));
+void pack(const Padded& from, Bfloat16* to) {
+  for (int k = 0; k < kSize; ++k) store(from.column[k], to + kSize * k);
+}
+
+/// factor · block
+inline Padded times(const Padded& factor, const Bfloat16* block) {
+  float entries[kEntries + kPadded];
+  for (int k = 0; k < kSize; ++k) store(load(block + kSize * k), entries + kSize * k);
+  Padded product;
+  for (int k = 0; k < kSize; ++k) product.column[k] = times(factor, entries + kSize * k);
+  return product;
 }
 
 /// False: has no inverse.
@@ -103,14 +137,14 @@ class Chain {
 
 }  // namespace
 
-void BlockIlu::Triangle::allocate() { block = allocate_blocks(column.size()); }
+void BlockIlu::Triangle::allocate() { block = allocate_blocks<Bfloat16>(column.size()); }
 
 BlockIlu::BlockIlu(int n, const int* start, const int* column, int levels)
     : n_(n), given_start_(start, start + n + 1), given_column_(column, column + start[n]) {
   find_pattern(start, column, levels);
   lower_.allocate();
   upper_.allocate();
-  pivot_ = allocate_blocks(n);
+  pivot_ = allocate_blocks<float>(n);
   work_.resize(static_cast<size_t>(n) * kPadded);
 }
 
@@ -164,8 +198,8 @@ bool BlockIlu::factor(const double* blocks) {
       for (size_t at = upper_.start[k]; at < upper_.start[k + 1]; ++at) {
         const int to = place[upper_.column[at]];
         if (to < 0) continue;  // fill of a higher level
-        const float* u = &upper_.block[at * kEntries];
-        for (int c = 0; c < kSize; ++c) row[to].column[c] -= times(factor, u + kSize * c);
+        const Padded update = times(factor, &upper_.block[at * kEntries]);
+        for (int c = 0; c < kSize; ++c) row[to].column[c] -= update.column[c];
       }
     }
     regular = invert(row[n_below], &pivot_[size_t(i) * kEntries]) && regular;
@@ -177,18 +211,31 @@ bool BlockIlu::factor(const double* blocks) {
   return regular;
 }
 
+namespace {
+
+constexpr int kAhead = 2048;  // bytes: rows are too short for the processor to see that one follows the other
+
+/// The block, with memory so many bytes from it asked for.
+template <int bytes>
+const Bfloat16* ahead(const Bfloat16* block) {
+  __builtin_prefetch(reinterpret_cast<const char*>(block) + bytes);
+  return block;
+}
+
+}  // namespace
+
 void BlockIlu::solve(const double* b, double* x) {
   for (int i = 0; i < n_; ++i) {
     Column sum = rounded(b + size_t(i) * kSize);
     for (size_t at = lower_.start[i]; at < lower_.start[i + 1]; ++at)
-      sum -= times(&lower_.block[at * kEntries], &work_[size_t(lower_.column[at]) * kPadded]);
+      sum -= times(ahead<kAhead>(&lower_.block[at * kEntries]), &work_[size_t(lower_.column[at]) * kPadded]);
     store(sum, &work_[size_t(i) * kPadded]);
   }
   for (int i = n_ - 1; i >= 0; --i) {
     float* y = &work_[size_t(i) * kPadded];
     Column sum = load(y);
     for (size_t at = upper_.start[i]; at < upper_.start[i + 1]; ++at)
-      sum -= times(&upper_.block[at * kEntries], &work_[size_t(upper_.column[at]) * kPadded]);
+      sum -= times(ahead<-kAhead>(&upper_.block[at * kEntries]), &work_[size_t(upper_.column[at]) * kPadded]);
     store(sum, y);
     store(times(&pivot_[size_t(i) * kEntries], y), y);
     for (int k = 0; k < kSize; ++k) x[size_t(i) * kSize + k] = y[k];

@@ -1,6 +1,7 @@
-// Incomplete LU factors of a matrix of 5x5 blocks, kept and applied in single precision: a preconditioner is worth no more
-// digits, and its application costs what it takes to read the factors once.
+// Incomplete LU factors of a matrix of 5x5 blocks, kept in bfloat16 and applied in single precision: what fill they leave out
+// is worth more than the digits, and their application costs what it takes to read them once.
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -22,7 +23,7 @@ class BlockIlu {
   struct Triangle {
     std::vector<size_t> start{0};
     std::vector<int> column;
-    std::unique_ptr<float[]> block;  ///< by columns, one after the other
+    std::unique_ptr<std::uint16_t[]> block;  ///< by columns, one after the other; the upper halves of floats
     void allocate();
   };
   void find_pattern(const int* start, const int* column, int levels);

@@ -58,7 +58,7 @@ PetscErrorCode destroy_own(PC pc) {
 
 void set_up_block_ilu(PC pc, int levels) {
   petsc(PCSetType(pc, PCSHELL));
-  petsc(PCShellSetName(pc, "block ILU in single precision"));
+  petsc(PCShellSetName(pc, "block ILU in bfloat16"));
   petsc(PCShellSetContext(pc, new OwnIlu{levels, {}}));
   petsc(PCShellSetSetUp(pc, factor_own));
   petsc(PCShellSetApply(pc, apply_own));

@@ -4,7 +4,7 @@
 
 namespace windhover::fluid {
 
-/// Incomplete factors of this rank's own part of a BAIJ matrix, in single precision (BlockIlu).
+/// Incomplete factors of this rank's own part of a BAIJ matrix, in bfloat16 (BlockIlu).
 void set_up_block_ilu(PC pc, int levels);
 
 /// UMFPACK, the whole problem on every rank. AIJ matrices.

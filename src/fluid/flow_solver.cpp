@@ -18,6 +18,16 @@ void add_times_volume(const mesh::Mesh& mesh, double alpha, Vec x, Vec y) {
   petsc(VecRestoreArray(y, &to));
 }
 
+/// By how much each zone turns in `time` if it goes on as now.
+std::vector<mesh::Mat3> turns(const Frames& now, double time) {
+  std::vector<mesh::Mat3> result;
+  for (const mesh::FrameState& f : now) {
+    const double rate = f.omega.norm();
+    result.push_back(rate > 0 ? Eigen::AngleAxisd(rate * time, f.omega / rate).toRotationMatrix() : mesh::Mat3::Identity());
+  }
+  return result;
+}
+
 }  // namespace
 
 int StepReport::newton() const {
@@ -112,13 +122,32 @@ double FlowSolver::good_enough(double rate) const {
   return std::min(options_.truncation_fraction * truncation, kLargest * rate);
 }
 
-/// out = q_n + fraction Δt (q_n − q_{n−1}) / Δt_{n−1}, or q_n where that would not be a gas.
-void FlowSolver::predict(double fraction, double dt, Vec out) const {
+/// out: q_{n−1} and q_n extended in a line by fraction Δt, or q_n where that would not be a gas. Momentum goes on in inertial axes
+/// or in those of its zone, in which flow around a blade is nearly steady: where it changed less in the last step.
+void FlowSolver::predict(double fraction, double dt, const Frames& now, Vec out) const {
   petsc(VecCopy(state_.q, out));
   const bool starting = state_.step < options_.start_steps;  // an impulsive start does not go on as it began
   if (!options_.extrapolate || state_.last_step == 0 || starting) return;
   const double r = fraction * dt / state_.last_step;
-  petsc(VecAXPBY(out, -r, 1.0 + r, state_.previous));
+  const std::vector<mesh::Mat3> last = turns(now, state_.last_step), next = turns(now, fraction * dt);
+  const double *now_values = nullptr, *before = nullptr;
+  double* guess = nullptr;
+  petsc(VecGetArrayRead(state_.q, &now_values));
+  petsc(VecGetArrayRead(state_.previous, &before));
+  petsc(VecGetArrayWrite(out, &guess));
+  for (mesh::Index c = 0; c < euler_.mesh().n_owned; ++c) {
+    const int zone = euler_.mesh().cell_zone[c];
+    const double *q = now_values + 5 * c, *p = before + 5 * c;
+    const mesh::Vec3 m(q[1], q[2], q[3]), earlier(p[1], p[2], p[3]);
+    const mesh::Vec3 change = m - earlier, in_zone = m - last[zone] * earlier;
+    const bool steadier = in_zone.squaredNorm() < change.squaredNorm();
+    const mesh::Vec3 momentum = steadier ? mesh::Vec3(next[zone] * (m + r * in_zone)) : mesh::Vec3(m + r * change);
+    for (const int k : {0, 4}) guess[5 * c + k] = (1 + r) * q[k] - r * p[k];
+    std::copy_n(momentum.data(), 3, guess + 5 * c + 1);
+  }
+  petsc(VecRestoreArrayWrite(out, &guess));
+  petsc(VecRestoreArrayRead(state_.previous, &before));
+  petsc(VecRestoreArrayRead(state_.q, &now_values));
   if (!euler_.is_physical(out)) petsc(VecCopy(state_.q, out));
 }
 
@@ -160,31 +189,39 @@ bool FlowSolver::solve_stage(const TimeScheme& scheme, int i, const FrameFunctio
   return report.converged;
 }
 
-/// Whether the preconditioner's Jacobian is too old for a step that ends at these frames.
-bool FlowSolver::stale(const Frames& end, double dt) const {
-  constexpr double kTurn = 0.17;      // radians: momentum turns with the zone, and small cells feel a step of 10° more
-  constexpr double kStretch = 1.25;   // of the time step
-  if (!report_.accepted || jacobian_.frames.empty() || state_.step - jacobian_.step >= options_.jacobian_lag) return true;
+/// Whether the preconditioner is to be made anew for a step of this size.
+bool FlowSolver::stale(double dt) const {
+  constexpr double kStretch = 1.25;  // of the time step
+  constexpr int kMaking = 5;         // Krylov iterations take as long as making it
+  if (!report_.accepted || jacobian_.dt == 0 || state_.step - jacobian_.step >= options_.jacobian_lag) return true;
   if (dt > kStretch * jacobian_.dt || jacobian_.dt > kStretch * dt) return true;
-  for (size_t z = 0; z < end.size(); ++z)
-    if ((jacobian_.frames[z].R.transpose() * end[z].R).trace() < 1 + 2 * std::cos(kTurn)) return true;
-  return false;
+  return jacobian_.excess >= kMaking;
+}
+
+/// Adds up what the preconditioner's age costs, in Krylov iterations of each step's first linear solve: the cheapest time to
+/// make it anew is when that is what making it costs.
+void FlowSolver::note_krylov() {
+  if (report_.stages.empty() || report_.stages.front().iterations.size() < 2) return;
+  const int now = report_.stages.front().iterations[1].krylov;
+  if (jacobian_.fresh < 0) jacobian_.fresh = now;
+  jacobian_.excess += std::max(0, now - jacobian_.fresh);
 }
 
 void FlowSolver::begin(const FrameFunction& frames, double dt) {
   const TimeScheme& scheme = current_scheme();
-  if (const Frames end = frames(state_.time + dt); stage_solver_ && stale(end, dt)) {
+  if (stage_solver_ && stale(dt)) {
     stage_solver_->renew();
-    jacobian_ = {end, dt, state_.step};
+    jacobian_ = {.dt = dt, .step = state_.step};
   }
   dt_ = dt;
   report_ = {};
   const double rate = scheme.implicit ? rate_norm() : 0;
   scales_.assign(scheme.stages, {.rate = rate, .good_enough = good_enough(rate)});
   const bool starts_at_known = scheme.a[0][0] == 0;
-  if (starts_at_known) euler_.residual(state_.q, frames(state_.time), rates_[0]);
+  const Frames now = frames(state_.time);
+  if (starts_at_known) euler_.residual(state_.q, now, rates_[0]);
   for (int i = starts_at_known ? 1 : 0; scheme.implicit && i < scheme.stages; ++i)
-    predict(scheme.c[i], dt, stages_[stages_.size() - scheme.stages + i]);
+    predict(scheme.c[i], dt, now, stages_[stages_.size() - scheme.stages + i]);
 }
 
 void FlowSolver::iterate_explicit(const TimeScheme& scheme, const FrameFunction& frames) {
@@ -218,6 +255,7 @@ const StepReport& FlowSolver::iterate(const FrameFunction& frames, int max_newto
 
 void FlowSolver::accept() {
   state_.third = third_derivative();
+  note_krylov();
   std::swap(state_.previous, state_.q);
   petsc(VecCopy(stages_.back(), state_.q));
   state_.time += dt_;

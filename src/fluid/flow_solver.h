@@ -69,11 +69,12 @@ class FlowSolver {
  private:
   const TimeScheme& current_scheme() const;
   double bdf2_weight() const;
-  bool stale(const Frames& end, double dt) const;
+  bool stale(double dt) const;
+  void note_krylov();
   bool solve_stage(const TimeScheme& scheme, int i, const FrameFunction& frames, int max_newton, int min_iterations);
   void iterate_explicit(const TimeScheme& scheme, const FrameFunction& frames);
   void explicit_state(const double* coefficients, int stages, double dt, Vec out);
-  void predict(double fraction, double dt, Vec out) const;
+  void predict(double fraction, double dt, const Frames& now, Vec out) const;
   double rate_norm() const;
   double third_derivative() const;
   double good_enough(double rate) const;
@@ -88,10 +89,11 @@ class FlowSolver {
   std::vector<StageScale> scales_;  ///< of each stage
   double dt_ = 0;                  ///< of the step begun
   struct {
-    Frames frames;  ///< at the end of the step for which it was made; empty: there is none
-    double dt = 0;
+    double dt = 0;   ///< of the step for which it was made; 0: there is none
     long step = 0;
-  } jacobian_;  ///< of the preconditioner
+    int fresh = -1;  ///< Krylov iterations of its first linear solve; below 0: not known yet
+    int excess = 0;  ///< of those of later steps over that, summed
+  } jacobian_;       ///< of the preconditioner
   StepReport report_;
 };
 

@@ -8,7 +8,7 @@
 
 namespace windhover::fluid {
 
-/// A cycle corrects on the next coarser level, then smooths: one rational Runge–Kutta step over block ILU in single precision
+/// A cycle corrects on the next coarser level, then smooths: one rational Runge–Kutta step over block ILU
 /// (BlockIlu), on the coarsest level UMFPACK on every rank. The finest level takes the exact product, the
 /// others first-order matrices (coarsening.h). Options reach the smoothers as …mg_levels_ and …mg_coarse_.
 class Multigrid {

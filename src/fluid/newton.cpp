@@ -22,16 +22,14 @@ NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options)
     : euler_(euler), options_(options), round_off_(euler) {
   const mesh::Mesh& mesh = euler.mesh();
   residual_ = euler.make_vector();
+  work_ = euler.make_vector();
   petsc(SNESCreate(mesh.comm, snes_.out()));
   petsc(SNESSetOptionsPrefix(snes_, "fluid_"));
   petsc(SNESSetFunction(snes_, residual_, form_function, this));
   const PetscInt n = kVariables * mesh.n_owned;
-  if (options_.exact_jacobian) {
-    petsc(MatCreateShell(mesh.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, this, product_.out()));
-    petsc(MatShellSetOperation(product_, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
-  } else {
-    petsc(MatCreateSNESMF(snes_, product_.out()));
-  }
+  petsc(MatCreateShell(mesh.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, this, product_.out()));
+  petsc(MatShellSetOperation(product_, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
+  if (!options_.exact_jacobian) petsc(MatCreateSNESMF(snes_, difference_.out()));
   Mat for_preconditioner = product_;
   if (options_.preconditioner->assembled) {
     jacobian_.emplace(mesh);
@@ -57,6 +55,8 @@ NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options)
   petsc(KSPSetType(ksp, KSPFGMRES));
   petsc(KSPGMRESSetRestart(ksp, options_.krylov_restart));
   petsc(KSPSetTolerances(ksp, options_.krylov_tolerance, 0, PETSC_DEFAULT, options_.krylov_iterations));
+  petsc(KSPSetPreSolve(ksp, enter_axes, this));
+  petsc(KSPSetPostSolve(ksp, leave_axes, this));
   petsc(KSPGetPC(ksp, &pc));
   options_.preconditioner->set_up(pc, options_.ilu_levels);
   petsc(SNESSetFromOptions(snes_));
@@ -130,10 +130,32 @@ PetscErrorCode NewtonKrylov::form_jacobian(SNES, Vec x, Mat j, Mat, void* contex
         petsc(MatConvert(self.jacobian_->matrix(), MATAIJ, MAT_REUSE_MATRIX, &reused));
       }
       self.rebuild_ = false;
+      self.made_in_ = e.frames;
     }
+    if (self.jacobian_) self.turned_ = ZoneTurn(self.made_in_, e.frames);
     if (self.options_.exact_jacobian) self.euler_.linearize(x, e.frames);
-    petsc(MatAssemblyBegin(j, MAT_FINAL_ASSEMBLY));
-    petsc(MatAssemblyEnd(j, MAT_FINAL_ASSEMBLY));
+    for (const Mat m : {j, static_cast<Mat>(self.difference_)}) {
+      if (!m) continue;
+      petsc(MatAssemblyBegin(m, MAT_FINAL_ASSEMBLY));
+      petsc(MatAssemblyEnd(m, MAT_FINAL_ASSEMBLY));
+    }
+    if (self.difference_) petsc(MatMFFDSetBase(self.difference_, x, nullptr));  // SNES's own F is turned (enter_axes)
+  });
+}
+
+PetscErrorCode NewtonKrylov::enter_axes(KSP, Vec b, Vec, void* context) {
+  auto& self = *static_cast<NewtonKrylov*>(context);
+  return self.guard_.run([&] {
+    if (!self.turned_.none()) self.turned_.back(self.euler_.mesh(), b, b);
+  });
+}
+
+PetscErrorCode NewtonKrylov::leave_axes(KSP, Vec b, Vec x, void* context) {
+  auto& self = *static_cast<NewtonKrylov*>(context);
+  return self.guard_.run([&] {
+    if (self.turned_.none()) return;
+    self.turned_.forth(self.euler_.mesh(), b, b);
+    self.turned_.forth(self.euler_.mesh(), x, x);
   });
 }
 
@@ -143,7 +165,13 @@ PetscErrorCode NewtonKrylov::multiply(Mat matrix, Vec x, Vec y) {
   if (code) return code;
   auto& self = *static_cast<NewtonKrylov*>(context);
   return self.guard_.run([&] {
-    self.euler_.derivative(x, y, {self.equation_->combination.mass, self.equation_->combination.rate});
+    Vec inertial = x;
+    if (!self.turned_.none()) self.turned_.forth(self.euler_.mesh(), x, inertial = self.work_);
+    if (self.options_.exact_jacobian)
+      self.euler_.derivative(inertial, y, {self.equation_->combination.mass, self.equation_->combination.rate});
+    else
+      petsc(MatMult(self.difference_, inertial, y));
+    if (!self.turned_.none()) self.turned_.back(self.euler_.mesh(), y, y);
   });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "fluid/preconditioner.h"
 #include "fluid/stage_solver.h"
+#include "fluid/zone_turn.h"
 
 namespace windhover::fluid {
 
@@ -32,6 +33,8 @@ class NewtonKrylov : public StageSolver {
   static PetscErrorCode set_forcing(SNES, PetscInt iteration);
   static PetscErrorCode form_function(SNES, Vec x, Vec f, void* self);
   static PetscErrorCode form_jacobian(SNES, Vec x, Mat j, Mat p, void* self);
+  static PetscErrorCode enter_axes(KSP, Vec b, Vec x, void* self);
+  static PetscErrorCode leave_axes(KSP, Vec b, Vec x, void* self);
   static PetscErrorCode multiply(Mat, Vec x, Vec y);
   static PetscErrorCode limit_update(SNESLineSearch, Vec x, Vec y, PetscBool* changed, void* self);
   static PetscErrorCode test_convergence(SNES, PetscInt, PetscReal, PetscReal, PetscReal, SNESConvergedReason*, void* self);
@@ -39,10 +42,13 @@ class NewtonKrylov : public StageSolver {
   EulerOperator& euler_;
   NewtonOptions options_;
   CallbackGuard guard_;
-  VecHandle residual_;
-  MatHandle product_;
+  VecHandle residual_, work_;
+  MatHandle product_;     ///< in the axes of the preconditioner
+  MatHandle difference_;  ///< product by differences, inertial axes
   std::optional<BlockJacobian> jacobian_;
   MatHandle converted_;  ///< jacobian_ in the preconditioner's own storage, when that is not BAIJ
+  Frames made_in_;   ///< where the zones were when the preconditioner was made
+  ZoneTurn turned_;  ///< since then; linear systems are solved in the axes from before
   SnesHandle snes_;
   RoundOff round_off_;
   const StageEquation* equation_ = nullptr;
