@@ -52,7 +52,7 @@ def plot_pressure(runs, mach, file):
     figure, panels = plt.subplots(1, 5, figsize=(17, 3.6), sharey=True)
     measured = measured_pressure(mach)
     for panel, radius in zip(panels, RADII):
-        for color, (name, run) in zip(("tab:blue", "tab:orange"), runs.items()):
+        for color, (name, run) in zip(("tab:blue", "tab:orange", "tab:green"), runs.items()):
             rows = of_last(run, "rotor_rotor_sections_mean.csv")
             rows = rows[(rows["blade"] == 0) & np.isclose(rows["r_over_R"], radius)]
             for side in (1, -1):

@@ -138,8 +138,8 @@ VecHandle EulerOperator::make_vector() const {
   return v;
 }
 
-/// Fills rows from the conserved state, or from its derivative along *dq, halo included.
-void EulerOperator::load_cells(Vec q, const Frames& frames, const Vec* dq, std::vector<Row>& rows) {
+/// Fills rows from the conserved state, or from its derivative along *dq, halo included; `turn` leads from the axes of dq.
+void EulerOperator::load_cells(Vec q, const Frames& frames, const Vec* dq, std::vector<Row>& rows, const ZoneTurn& turn) {
   const double *values = nullptr, *derivatives = nullptr;
   petsc(VecGetArrayRead(q, &values));
   if (dq) petsc(VecGetArrayRead(*dq, &derivatives));
@@ -157,6 +157,11 @@ void EulerOperator::load_cells(Vec q, const Frames& frames, const Vec* dq, std::
       } else {
         Pack along[8];
         load_columns(Eight<5>(derivatives + 5 * c, left).first, along);
+        if (!turn.none()) {
+          const Mat3& R = turn.forth(z);
+          const Pack m[3] = {along[1], along[2], along[3]};
+          for (int i = 0; i < 3; ++i) along[1 + i] = R(i, 0) * m[0] + R(i, 1) * m[1] + R(i, 2) * m[2];
+        }
         Dual<Pack> dual[5], rows_of_dual[8];
         for (int k = 0; k < 5; ++k) dual[k] = {columns[k], along[k]};
         make_rows(dual, grid, use_mach, model_.gamma, rows_of_dual);
@@ -204,15 +209,18 @@ FaceInput EulerOperator::face_input(const FrameState& frame) const {
   return in;
 }
 
-/// Leaves the rates at zero for the next sum, while they are in the cache.
-void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination) {
+/// Leaves the rates at zero for the next sum, while they are in the cache. `turn` leads from the axes of x and out.
+void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination, const ZoneTurn& turn) {
   double* to = nullptr;
   const double *from = nullptr, *known = nullptr;
   petsc(VecGetArrayWrite(out, &to));
   petsc(VecGetArrayRead(x, &from));
   if (combination.known) petsc(VecGetArrayRead(combination.known, &known));
+  Pack::Vector axes[3] = {};  // columns of the zone's matrix, where the momentum is
+  const Pack::Vector scalars = {1, 0, 0, 0, 1};
   const auto combine = [&](mesh::Index c, auto columns) {
     Pack::Vector sum = combination.rate * Pack::load(rates_[c].v).v;
+    if (!turn.none()) sum = scalars * sum + axes[0] * sum[1] + axes[1] * sum[2] + axes[2] * sum[3];
     Pack(0.0).store(rates_[c].v);
     Pack::Vector term = {};
     std::memcpy(&term, from + kVariables * c, columns * sizeof(double));
@@ -225,8 +233,13 @@ void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination) 
   };
   // whole registers spill over the next cell, which comes after; the last cell must not
   const mesh::Index safe = std::max<mesh::Index>(0, mesh_.n_owned - 1);
-  for (mesh::Index c = 0; c < safe; ++c) combine(c, std::integral_constant<int, 8>());
-  for (mesh::Index c = safe; c < mesh_.n_owned; ++c) combine(c, std::integral_constant<int, kVariables>());
+  for (size_t z = 0; z < zone_cells_.size(); ++z) {
+    for (int k = 0; k < 3 && !turn.none(); ++k)
+      for (int i = 0; i < 3; ++i) axes[k][1 + i] = turn.back(z)(i, k);
+    const Range& zone = zone_cells_[z];
+    for (mesh::Index c = zone.begin; c < std::min(zone.end, safe); ++c) combine(c, std::integral_constant<int, 8>());
+    for (mesh::Index c = std::max(zone.begin, safe); c < zone.end; ++c) combine(c, std::integral_constant<int, kVariables>());
+  }
   std::fill(rates_.begin() + mesh_.n_owned, rates_.end(), Row{});
   if (combination.known) petsc(VecRestoreArrayRead(combination.known, &known));
   petsc(VecRestoreArrayRead(x, &from));
@@ -270,12 +283,12 @@ void EulerOperator::linearize(Vec q, const Frames& frames) {
   }
 }
 
-void EulerOperator::derivative(Vec dq, Vec out, const Combination& combination) {
-  load_cells(base_, frames_, &dq, d_cells_);
+void EulerOperator::derivative(Vec dq, Vec out, const Combination& combination, const ZoneTurn& turn) {
+  load_cells(base_, frames_, &dq, d_cells_, turn);
   update_gradients(d_cells_, d_gradients_);
   const int r = static_cast<int>(model_.reconstruction);
   sum_rates(frames_, model_.flux->derivative[r], kBoundaryKernels.derivative[r]);
-  store_rates(dq, out, combination);
+  store_rates(dq, out, combination, turn);
 }
 
 }  // namespace windhover::fluid

@@ -12,6 +12,7 @@
 #include "fluid/boundary_kernels.h"
 #include "fluid/gradient.h"
 #include "fluid/sliding_faces.h"
+#include "fluid/zone_turn.h"
 #include "mesh/mesh.h"
 #include "mesh/motion.h"
 
@@ -66,8 +67,8 @@ class EulerOperator {
 
   /// Fixes the state for derivative().
   void linearize(Vec q, const Frames& frames);
-  /// out = (mass V + rate dR/dq) dq, exact (forward mode).
-  void derivative(Vec dq, Vec out, const Combination& combination = {});
+  /// out = (mass V + rate dR/dq) dq, exact (forward mode); dq and out in the axes from which `turn` leads to the state's.
+  void derivative(Vec dq, Vec out, const Combination& combination = {}, const ZoneTurn& turn = {});
 
   /// jacobian = scale · d(first-order residual)/dq + diagonal(mass_scale · volume).
   void first_order_jacobian(Vec q, const Frames& frames, double scale, double mass_scale, BlockJacobian& jacobian);
@@ -92,7 +93,7 @@ class EulerOperator {
   double courant_number(Vec q, const Frames& frames, double dt);
 
  private:
-  void load_cells(Vec q, const Frames& frames, const Vec* dq, std::vector<Row>& rows);
+  void load_cells(Vec q, const Frames& frames, const Vec* dq, std::vector<Row>& rows, const ZoneTurn& turn = {});
   void exchange(std::vector<Row>& rows) const;
   void update_gradients(const std::vector<Row>& rows, std::vector<GradientRow>& gradients) const;
   FaceInput face_input(const mesh::FrameState& frame) const;
@@ -119,7 +120,7 @@ class EulerOperator {
       visit(face_input(frames[sliding_.frame_zone(i)]), blocks[i].data(), static_cast<int>(blocks[i].size()));
   }
   void sum_rates(const Frames& frames, FluxKernels::Sum interior, BoundaryKernels::Sum boundary);
-  void store_rates(Vec x, Vec out, const Combination& combination);
+  void store_rates(Vec x, Vec out, const Combination& combination, const ZoneTurn& turn = {});
   void prepare(Vec q, const Frames& frames);
 
   const mesh::Mesh& mesh_;

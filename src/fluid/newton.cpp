@@ -22,14 +22,16 @@ NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options)
     : euler_(euler), options_(options), round_off_(euler) {
   const mesh::Mesh& mesh = euler.mesh();
   residual_ = euler.make_vector();
-  work_ = euler.make_vector();
   petsc(SNESCreate(mesh.comm, snes_.out()));
   petsc(SNESSetOptionsPrefix(snes_, "fluid_"));
   petsc(SNESSetFunction(snes_, residual_, form_function, this));
   const PetscInt n = kVariables * mesh.n_owned;
   petsc(MatCreateShell(mesh.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, this, product_.out()));
   petsc(MatShellSetOperation(product_, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
-  if (!options_.exact_jacobian) petsc(MatCreateSNESMF(snes_, difference_.out()));
+  if (!options_.exact_jacobian) {
+    petsc(MatCreateSNESMF(snes_, difference_.out()));
+    work_ = euler.make_vector();
+  }
   Mat for_preconditioner = product_;
   if (options_.preconditioner->assembled) {
     jacobian_.emplace(mesh);
@@ -146,7 +148,7 @@ PetscErrorCode NewtonKrylov::form_jacobian(SNES, Vec x, Mat j, Mat, void* contex
 PetscErrorCode NewtonKrylov::enter_axes(KSP, Vec b, Vec, void* context) {
   auto& self = *static_cast<NewtonKrylov*>(context);
   return self.guard_.run([&] {
-    if (!self.turned_.none()) self.turned_.back(self.euler_.mesh(), b, b);
+    if (!self.turned_.none()) self.turned_.back(self.euler_.mesh(), b);
   });
 }
 
@@ -154,8 +156,8 @@ PetscErrorCode NewtonKrylov::leave_axes(KSP, Vec b, Vec x, void* context) {
   auto& self = *static_cast<NewtonKrylov*>(context);
   return self.guard_.run([&] {
     if (self.turned_.none()) return;
-    self.turned_.forth(self.euler_.mesh(), b, b);
-    self.turned_.forth(self.euler_.mesh(), x, x);
+    self.turned_.forth(self.euler_.mesh(), b);
+    self.turned_.forth(self.euler_.mesh(), x);
   });
 }
 
@@ -165,13 +167,15 @@ PetscErrorCode NewtonKrylov::multiply(Mat matrix, Vec x, Vec y) {
   if (code) return code;
   auto& self = *static_cast<NewtonKrylov*>(context);
   return self.guard_.run([&] {
-    Vec inertial = x;
-    if (!self.turned_.none()) self.turned_.forth(self.euler_.mesh(), x, inertial = self.work_);
-    if (self.options_.exact_jacobian)
-      self.euler_.derivative(inertial, y, {self.equation_->combination.mass, self.equation_->combination.rate});
-    else
-      petsc(MatMult(self.difference_, inertial, y));
-    if (!self.turned_.none()) self.turned_.back(self.euler_.mesh(), y, y);
+    const ZoneTurn& turned = self.turned_;
+    if (self.options_.exact_jacobian) {
+      self.euler_.derivative(x, y, {self.equation_->combination.mass, self.equation_->combination.rate}, turned);
+      return;
+    }
+    petsc(VecCopy(x, self.work_));
+    if (!turned.none()) turned.forth(self.euler_.mesh(), self.work_);
+    petsc(MatMult(self.difference_, self.work_, y));
+    if (!turned.none()) turned.back(self.euler_.mesh(), y);
   });
 }
 

@@ -14,12 +14,14 @@ class ZoneTurn {
 
   /// No zone has.
   bool none() const { return none_; }
-  /// Conserved variables, five per owned cell: `to` has the momenta of `from` turned with their zones; may be the same vector.
-  void forth(const mesh::Mesh& mesh, Vec from, Vec to) const { turn(mesh, turn_, from, to); }
-  void back(const mesh::Mesh& mesh, Vec from, Vec to) const { turn(mesh, back_, from, to); }
+  const mesh::Mat3& forth(size_t zone) const { return turn_[zone]; }
+  const mesh::Mat3& back(size_t zone) const { return back_[zone]; }
+  /// Conserved variables, five per owned cell: momenta turn with their zones.
+  void forth(const mesh::Mesh& mesh, Vec q) const { turn(mesh, turn_, q); }
+  void back(const mesh::Mesh& mesh, Vec q) const { turn(mesh, back_, q); }
 
  private:
-  static void turn(const mesh::Mesh& mesh, const std::vector<mesh::Mat3>& turns, Vec from, Vec to);
+  static void turn(const mesh::Mesh& mesh, const std::vector<mesh::Mat3>& turns, Vec q);
 
   bool none_ = true;
   std::vector<mesh::Mat3> turn_, back_;
