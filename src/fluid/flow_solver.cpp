@@ -122,13 +122,18 @@ double FlowSolver::good_enough(double rate) const {
   return std::min(options_.truncation_fraction * truncation, kLargest * rate);
 }
 
-/// out: q_{n−1} and q_n extended in a line by fraction Δt, or q_n where that would not be a gas. Momentum goes on in inertial axes
-/// or in those of its zone, in which flow around a blade is nearly steady: where it changed less in the last step.
+/// out: q_{n−1} and q_n extended in a line by fraction Δt. Momentum goes on in inertial axes or in those of its zone, in which
+/// flow around a blade is nearly steady: where it changed less in the last step. A cell follows the line until its density or
+/// pressure has changed by kMost: beyond, it says nothing, and a cell near vacuum would stall the linear solver.
 void FlowSolver::predict(double fraction, double dt, const Frames& now, Vec out) const {
-  petsc(VecCopy(state_.q, out));
-  const bool starting = state_.step < options_.start_steps;  // an impulsive start does not go on as it began
-  if (!options_.extrapolate || state_.last_step == 0 || starting) return;
-  const double r = fraction * dt / state_.last_step;
+  constexpr double kMost = 0.2;
+  constexpr int kImpulse = 6;  // an impulsive start does not go on as it began
+  const bool starting = state_.step < std::min(kImpulse, options_.start_steps);
+  if (!options_.extrapolate || state_.last_step == 0 || starting) {
+    petsc(VecCopy(state_.q, out));
+    return;
+  }
+  const double r = fraction * dt / state_.last_step, gamma = euler_.model().gamma;
   const std::vector<mesh::Mat3> last = turns(now, state_.last_step), next = turns(now, fraction * dt);
   const double *now_values = nullptr, *before = nullptr;
   double* guess = nullptr;
@@ -138,17 +143,23 @@ void FlowSolver::predict(double fraction, double dt, const Frames& now, Vec out)
   for (mesh::Index c = 0; c < euler_.mesh().n_owned; ++c) {
     const int zone = euler_.mesh().cell_zone[c];
     const double *q = now_values + 5 * c, *p = before + 5 * c;
+    double* g = guess + 5 * c;
     const mesh::Vec3 m(q[1], q[2], q[3]), earlier(p[1], p[2], p[3]);
     const mesh::Vec3 change = m - earlier, in_zone = m - last[zone] * earlier;
     const bool steadier = in_zone.squaredNorm() < change.squaredNorm();
     const mesh::Vec3 momentum = steadier ? mesh::Vec3(next[zone] * (m + r * in_zone)) : mesh::Vec3(m + r * change);
-    for (const int k : {0, 4}) guess[5 * c + k] = (1 + r) * q[k] - r * p[k];
-    std::copy_n(momentum.data(), 3, guess + 5 * c + 1);
+    for (const int k : {0, 4}) g[k] = (1 + r) * q[k] - r * p[k];
+    std::copy_n(momentum.data(), 3, g + 1);
+    const auto limit = [&](double relative_change) {
+      if (relative_change > kMost)
+        for (int k = 0; k < kVariables; ++k) g[k] = q[k] + kMost / relative_change * (g[k] - q[k]);
+    };
+    limit(std::abs(g[0] / q[0] - 1));
+    limit(std::abs(primitive(g, gamma).p / primitive(q, gamma).p - 1));  // concave in q: stays above 1 - kMost of itself
   }
   petsc(VecRestoreArrayWrite(out, &guess));
   petsc(VecRestoreArrayRead(state_.previous, &before));
   petsc(VecRestoreArrayRead(state_.q, &now_values));
-  if (!euler_.is_physical(out)) petsc(VecCopy(state_.q, out));
 }
 
 /// out = q_n − Δt/V Σ_j coefficients_j R_j
