@@ -54,7 +54,7 @@ StageReport DualTime::solve(const StageEquation& equation, Vec q, const StageSca
   set_pseudo_steps(equation, q);
   StageReport report;
   double norm = residual_norm(equation, q);
-  const double size = std::max(norm, scale.rate), target = std::max({options_.tolerance * size, scale.good_enough, floor});
+  const double size = std::max(norm, scale.rate), target = scale.target(options_.tolerance * size, floor);
   if (scale.unmoved(norm, target)) min_iterations = 0;
   for (int i = 0;; ++i) {
     report.iterations.push_back({norm, 0, MPI_Wtime() - started});

@@ -1,5 +1,6 @@
 // The equation of one implicit stage, and what solves it.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -26,6 +27,7 @@ struct StageReport {
   bool failed = false;  ///< not converged, and not for want of iterations
   std::string reason;
   int krylov = 0;                          ///< sum
+  double largest = 0;                      ///< mass residual of a cell in V^(2/3) ρ c, where the method knows it
   std::vector<StageIteration> iterations;  ///< entry 0: the starting residual
 };
 
@@ -33,8 +35,10 @@ struct StageReport {
 struct StageScale {
   double rate = 0;         ///< how fast the flow changes, |V dq/dt|
   double good_enough = 0;  ///< a residual that need not be less
+  double tightness = 1;    ///< factor on what the residual must fall to
   double before = -1;      ///< residual of the same q under the frames it was last solved with; below 0: there are none
 
+  double target(double tolerance, double floor) const { return std::max(tightness * std::max(tolerance, good_enough), floor); }
   /// The flow's answer to the frames' move since then is less than the error that Newton may leave.
   bool unmoved(double residual, double target) const {
     return before >= 0 && std::abs(residual - before) <= 0.01 * target;
@@ -45,8 +49,8 @@ class StageSolver {
  public:
   virtual ~StageSolver() = default;
 
-  /// q: first guess in, solution out. Converged: |F| <= tolerance * max(|F(guess)|, scale.rate), or good enough, or at
-  /// round-off. With min_iterations > 0 only round-off will do before them, unless the frames' move is not felt
+  /// q: first guess in, solution out. Converged: |F| <= tolerance * max(|F(guess)|, scale.rate), or good enough, both
+  /// times scale.tightness, or at round-off. With min_iterations > 0 only round-off will do before them, unless the frames' move is not felt
   /// (StageScale::unmoved). max_newton, 0: what the options say, is obeyed where few iterations bring q closer.
   virtual StageReport solve(const StageEquation& equation, Vec q, const StageScale& scale, int max_newton = 0,
                             int min_iterations = 0) = 0;
