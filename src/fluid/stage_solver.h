@@ -35,10 +35,13 @@ struct StageReport {
 struct StageScale {
   double rate = 0;         ///< how fast the flow changes, |V dq/dt|
   double good_enough = 0;  ///< a residual that need not be less
-  double tightness = 1;    ///< factor on what the residual must fall to
+  double tightness = 1;    ///< factor on either, down to round-off
   double before = -1;      ///< residual of the same q under the frames it was last solved with; below 0: there are none
 
-  double target(double tolerance, double floor) const { return std::max(tightness * std::max(tolerance, good_enough), floor); }
+  /// What the residual must fall to.
+  double target(double tolerance, double floor) const {
+    return std::max(tightness * std::max(tolerance, good_enough), floor);
+  }
   /// The flow's answer to the frames' move since then is less than the error that Newton may leave.
   bool unmoved(double residual, double target) const {
     return before >= 0 && std::abs(residual - before) <= 0.01 * target;
@@ -49,9 +52,10 @@ class StageSolver {
  public:
   virtual ~StageSolver() = default;
 
-  /// q: first guess in, solution out. Converged: |F| <= tolerance * max(|F(guess)|, scale.rate), or good enough, both
-  /// times scale.tightness, or at round-off. With min_iterations > 0 only round-off will do before them, unless the frames' move is not felt
-  /// (StageScale::unmoved). max_newton, 0: what the options say, is obeyed where few iterations bring q closer.
+  /// q: first guess in, solution out. Converged: |F| <= tolerance * max(|F(guess)|, scale.rate), or good enough, either
+  /// times scale.tightness, or at round-off. With min_iterations > 0 only round-off will do before them, unless the
+  /// frames' move is not felt (StageScale::unmoved). max_newton, 0: what the options say, is obeyed where few
+  /// iterations bring q closer.
   virtual StageReport solve(const StageEquation& equation, Vec q, const StageScale& scale, int max_newton = 0,
                             int min_iterations = 0) = 0;
   /// What is kept from one solve to the next is made anew.
