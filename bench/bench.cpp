@@ -140,7 +140,7 @@ class Bench {
       Handle<PC, PCDestroy> pc;
       petsc(PCCreate(PETSC_COMM_WORLD, pc.out()));
       petsc(PCSetOperators(pc, jacobian.matrix(), jacobian.matrix()));
-      preconditioner("ilu").set_up(pc, levels);
+      preconditioner("ilu").set_up(pc, levels, nullptr);
       const std::string name = "(ilu, " + std::to_string(levels) + " levels of fill)";
       report("preconditioner set-up " + name, time_of([&] {
                petsc(MatAssemblyBegin(jacobian.matrix(), MAT_FINAL_ASSEMBLY));  // marks it as new

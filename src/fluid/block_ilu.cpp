@@ -242,4 +242,11 @@ void BlockIlu::solve(const double* b, double* x) {
   }
 }
 
+void BlockIlu::solve_row(int row, const double* b, double* x) const {
+  float y[kPadded];
+  store(rounded(b), y);
+  store(times(&pivot_[size_t(row) * kEntries], y), y);
+  std::copy_n(y, kSize, x);
+}
+
 }  // namespace windhover::fluid

@@ -17,6 +17,8 @@ class BlockIlu {
   bool factor(const double* blocks);
   /// x = U⁻¹ L⁻¹ b, five values a row.
   void solve(const double* b, double* x);
+  /// x = U⁻¹ b of one row alone.
+  void solve_row(int row, const double* b, double* x) const;
 
  private:
   /// Rows of blocks on one side of the diagonal.

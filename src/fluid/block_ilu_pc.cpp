@@ -4,6 +4,7 @@
 
 #include "fluid/block_ilu.h"
 #include "fluid/block_matrix.h"
+#include "fluid/interface_coupling.h"
 
 namespace windhover::fluid {
 namespace {
@@ -11,13 +12,25 @@ namespace {
 /// Incomplete factors of this rank's own part of the matrix.
 struct OwnIlu {
   int levels;
+  InterfaceCoupling* coupling;
   std::optional<BlockIlu> factors;
+  std::vector<double> coupled;  ///< b − C D⁻¹ b
+
+  const double* right_side(const double* b, PetscInt n);
 };
 
 OwnIlu& own_ilu(PC pc) {
   void* context = nullptr;
   petsc(PCShellGetContext(pc, &context));
   return *static_cast<OwnIlu*>(context);
+}
+
+const double* OwnIlu::right_side(const double* b, PetscInt n) {
+  if (!coupling) return b;
+  coupled.assign(b, b + n);
+  coupling->subtract_product(
+      [&](mesh::Index cell, double* own) { factors->solve_row(cell, b + size_t(kVariables) * cell, own); }, coupled.data());
+  return coupled.data();
 }
 
 PetscErrorCode factor_own(PC pc) {
@@ -40,11 +53,14 @@ PetscErrorCode factor_own(PC pc) {
 
 PetscErrorCode apply_own(PC pc, Vec b, Vec x) {
   return CallbackGuard().run([=] {
+    OwnIlu& ilu = own_ilu(pc);
+    PetscInt n = 0;
     const double* from = nullptr;
     double* to = nullptr;
+    petsc(VecGetLocalSize(b, &n));
     petsc(VecGetArrayRead(b, &from));
     petsc(VecGetArrayWrite(x, &to));
-    own_ilu(pc).factors->solve(from, to);
+    ilu.factors->solve(ilu.right_side(from, n), to);
     petsc(VecRestoreArrayWrite(x, &to));
     petsc(VecRestoreArrayRead(b, &from));
   });
@@ -56,10 +72,10 @@ PetscErrorCode destroy_own(PC pc) {
 
 }  // namespace
 
-void set_up_block_ilu(PC pc, int levels) {
+void set_up_block_ilu(PC pc, int levels, InterfaceCoupling* coupling) {
   petsc(PCSetType(pc, PCSHELL));
   petsc(PCShellSetName(pc, "block ILU in bfloat16"));
-  petsc(PCShellSetContext(pc, new OwnIlu{levels, {}}));
+  petsc(PCShellSetContext(pc, new OwnIlu{levels, coupling, {}, {}}));
   petsc(PCShellSetSetUp(pc, factor_own));
   petsc(PCShellSetApply(pc, apply_own));
   petsc(PCShellSetDestroy(pc, destroy_own));

@@ -4,8 +4,11 @@
 
 namespace windhover::fluid {
 
-/// Incomplete factors of this rank's own part of a BAIJ matrix, in bfloat16 (BlockIlu).
-void set_up_block_ilu(PC pc, int levels);
+class InterfaceCoupling;
+
+/// Incomplete factors M of this rank's own part of a BAIJ matrix, in bfloat16 (BlockIlu). With a coupling C they are applied
+/// as M⁻¹ (1 − C D⁻¹), D their pivots: the first terms of the inverse's series in C, with A⁻¹ ≈ D⁻¹ inside.
+void set_up_block_ilu(PC pc, int levels, InterfaceCoupling* coupling = nullptr);
 
 /// UMFPACK, the whole problem on every rank. AIJ matrices.
 void set_up_everywhere_lu(PC pc);

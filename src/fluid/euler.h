@@ -45,6 +45,12 @@ struct SurfacePoints {
   std::vector<mesh::FaceBlock> blocks;
 };
 
+/// An entry of the first-order Jacobian between cells on two sides of a sliding interface; rows as SlidingFaces counts them.
+struct InterfaceBlock {
+  mesh::Index row, column;
+  Eigen::Matrix<float, kVariables, kVariables> block;
+};
+
 /// How the rate of change R enters a result: mass V x + rate R + known.
 struct Combination {
   double mass = 0, rate = 1;
@@ -72,6 +78,11 @@ class EulerOperator {
 
   /// jacobian = scale · d(first-order residual)/dq + diagonal(mass_scale · volume).
   void first_order_jacobian(Vec q, const Frames& frames, double scale, double mass_scale, BlockJacobian& jacobian);
+
+  /// blocks: scale · d(first-order residual)/dq between owned cells and those of other zones, one for each piece of an
+  /// interface, in the axes from which `turn` leads to those of `frames`.
+  void interface_jacobian(Vec q, const Frames& frames, double scale, const ZoneTurn& turn, std::vector<InterfaceBlock>& blocks);
+  const SlidingFaces& sliding_faces() const { return sliding_; }
 
   /// Sums over the whole domain of volume times mass, momentum and energy. Collective.
   std::array<double, kVariables> total(Vec q) const;

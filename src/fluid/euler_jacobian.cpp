@@ -67,4 +67,39 @@ void EulerOperator::first_order_jacobian(Vec q, const Frames& frames, double sca
   jacobian.finish();
 }
 
+void EulerOperator::interface_jacobian(Vec q, const Frames& frames, double scale, const ZoneTurn& turn,
+                                       std::vector<InterfaceBlock>& result) {
+  typedef Eigen::Matrix<double, kVariables, kVariables> Block;
+  const auto momentum_turn = [&](const mesh::Mat3& turned) {
+    Block t = Block::Identity();
+    t.block<3, 3>(1, 1) = turned;
+    return t;
+  };
+  load_cells(q, frames, nullptr, cells_);
+  result.clear();
+  const auto& interfaces = sliding_.blocks(frames);
+  for (size_t i = 0; i < interfaces.size(); ++i) {
+    const FaceInput in = face_input(frames[sliding_.frame_zone(i)]);
+    Block back[2], forth[2];
+    for (int s = 0; s < 2; ++s) {
+      const size_t zone = sliding_.zones(i)[s];
+      back[s] = turn.none() ? Block(Block::Identity()) : momentum_turn(turn.back(zone));
+      forth[s] = turn.none() ? Block(Block::Identity()) : momentum_turn(turn.forth(zone));
+    }
+    BlockPack sides[2];
+    for (const FaceBlock& b : interfaces[i]) {
+      model_.flux->jacobian(in, b, sides);
+      for (int column = 0; column < 2; ++column) {
+        const int row = 1 - column;
+        const LaneBlocks lanes(sides[column]);
+        for (int k = 0; k < b.count; ++k) {
+          if (b.cell[row][k] >= mesh_.n_owned) continue;
+          const Block block = (row == 0 ? scale : -scale) * back[row] * Block::Map(lanes.block[k]) * forth[column];
+          result.push_back({b.cell[row][k], b.cell[column][k], block.cast<float>()});
+        }
+      }
+    }
+  }
+}
+
 }  // namespace windhover::fluid

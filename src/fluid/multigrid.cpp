@@ -19,7 +19,7 @@ PetscInt rows(Mat matrix) {
 
 }  // namespace
 
-Multigrid::Multigrid(Mat product, Mat matrix, int ilu_levels, const char* options_prefix) {
+Multigrid::Multigrid(Mat product, Mat matrix, int ilu_levels, InterfaceCoupling* coupling, const char* options_prefix) {
   register_rrk();
   levels_.push_back({matrix, {}, {}, {}});
   while (rows(levels_.back().matrix) > kCoarsest) {
@@ -31,11 +31,14 @@ Multigrid::Multigrid(Mat product, Mat matrix, int ilu_levels, const char* option
     coarsening_.push_back(std::move(next));
   }
   petsc(MatConvert(levels_.back().matrix, MATAIJ, MAT_INITIAL_MATRIX, coarsest_.out()));
-  for (Level& level : levels_)
-    add_smoother(level, level.matrix == matrix ? product : level.matrix, ilu_levels, options_prefix);
+  for (Level& level : levels_) {
+    const bool finest = level.matrix == matrix;
+    add_smoother(level, finest ? product : level.matrix, ilu_levels, finest ? coupling : nullptr, options_prefix);
+  }
 }
 
-void Multigrid::add_smoother(Level& level, Mat product, int ilu_levels, const char* options_prefix) {
+void Multigrid::add_smoother(Level& level, Mat product, int ilu_levels, InterfaceCoupling* coupling,
+                             const char* options_prefix) {
   const bool coarsest = &level == &levels_.back();
   petsc(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(level.matrix)), level.smoother.out()));
   const KSP smoother = level.smoother;
@@ -54,7 +57,7 @@ void Multigrid::add_smoother(Level& level, Mat product, int ilu_levels, const ch
     petsc(KSPSetTolerances(smoother, 0, 0, PETSC_DEFAULT, 1));
     petsc(KSPSetNormType(smoother, KSP_NORM_NONE));
     petsc(KSPSetInitialGuessNonzero(smoother, PETSC_TRUE));
-    set_up_block_ilu(pc, ilu_levels);
+    set_up_block_ilu(pc, ilu_levels, coupling);
   }
   petsc(KSPSetFromOptions(smoother));
 }

@@ -8,13 +8,15 @@
 
 namespace windhover::fluid {
 
+class InterfaceCoupling;
+
 /// A cycle corrects on the next coarser level, then smooths: one rational Runge–Kutta step over block ILU
 /// (BlockIlu), on the coarsest level UMFPACK on every rank. The finest level takes the exact product, the
 /// others first-order matrices (coarsening.h). Options reach the smoothers as …mg_levels_ and …mg_coarse_.
 class Multigrid {
  public:
-  /// `product`: what is to be solved; `matrix`: its first-order Jacobian (BAIJ), with values.
-  Multigrid(Mat product, Mat matrix, int ilu_levels, const char* options_prefix);
+  /// `product`: what is to be solved; `matrix`: its first-order Jacobian (BAIJ), with values, but for `coupling`.
+  Multigrid(Mat product, Mat matrix, int ilu_levels, InterfaceCoupling* coupling, const char* options_prefix);
 
   /// Coarse matrices and smoothers for the matrix's present values.
   void renew();
@@ -27,7 +29,7 @@ class Multigrid {
     Handle<KSP, KSPDestroy> smoother;
     VecHandle x, b;  ///< solution and right-hand side, except on the finest level
   };
-  void add_smoother(Level& level, Mat product, int ilu_levels, const char* options_prefix);
+  void add_smoother(Level& level, Mat product, int ilu_levels, InterfaceCoupling* coupling, const char* options_prefix);
   void cycle(size_t level, Vec b, Vec x);
 
   std::vector<std::unique_ptr<Coarsening>> coarsening_;  ///< from level i to i + 1

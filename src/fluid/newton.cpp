@@ -42,6 +42,7 @@ NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options)
       for_preconditioner = converted_;
     }
   }
+  if (options_.preconditioner->coupled && !euler.sliding_faces().empty()) coupling_.emplace(euler);
   petsc(SNESSetJacobian(snes_, product_, for_preconditioner, form_jacobian, this));
   petsc(SNESSetType(snes_, SNESNEWTONLS));
   petsc(SNESSetConvergenceTest(snes_, test_convergence, this, nullptr));
@@ -61,7 +62,7 @@ NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options)
   petsc(KSPSetPreSolve(ksp, enter_axes, this));
   petsc(KSPSetPostSolve(ksp, leave_axes, this));
   petsc(KSPGetPC(ksp, &pc));
-  options_.preconditioner->set_up(pc, options_.ilu_levels);
+  options_.preconditioner->set_up(pc, options_.ilu_levels, coupling_ ? &*coupling_ : nullptr);
   petsc(SNESSetFromOptions(snes_));
 }
 
@@ -148,6 +149,7 @@ PetscErrorCode NewtonKrylov::form_jacobian(SNES, Vec x, Mat j, Mat, void* contex
       self.made_in_ = e.frames;
     }
     if (self.jacobian_) self.turned_ = ZoneTurn(self.made_in_, e.frames);
+    if (self.coupling_) self.coupling_->renew(x, e.frames, e.combination.rate, self.turned_);
     if (self.options_.exact_jacobian) self.euler_.linearize(x, e.frames);
     for (const Mat m : {j, static_cast<Mat>(self.difference_)}) {
       if (!m) continue;

@@ -1,5 +1,6 @@
 // One implicit stage by Newton–Krylov (SNES, flexible GMRES).
 #pragma once
+#include "fluid/interface_coupling.h"
 #include "fluid/preconditioner.h"
 #include "fluid/stage_solver.h"
 #include "fluid/zone_turn.h"
@@ -47,6 +48,7 @@ class NewtonKrylov : public StageSolver {
   MatHandle product_;     ///< in the axes of the preconditioner
   MatHandle difference_;  ///< product by differences, inertial axes
   std::optional<BlockJacobian> jacobian_;
+  std::optional<InterfaceCoupling> coupling_;  ///< what jacobian_ lacks
   MatHandle converted_;  ///< jacobian_ in the preconditioner's own storage, when that is not BAIJ
   Frames made_in_;   ///< where the zones were when the preconditioner was made
   ZoneTurn turned_;  ///< since then; linear systems are solved in the axes from before

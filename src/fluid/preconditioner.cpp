@@ -27,13 +27,13 @@ void set_defaults(PC pc, std::initializer_list<std::pair<std::string, std::strin
   }
 }
 
-void set_up_asm(PC pc, int levels) {
+void set_up_asm(PC pc, int levels, InterfaceCoupling*) {
   petsc(PCSetType(pc, PCASM));
   petsc(PCASMSetOverlap(pc, 1));
   set_defaults(pc, {{"sub_pc_type", "ilu"}, {"sub_pc_factor_levels", std::to_string(levels)}});
 }
 
-void set_up_rrk(PC pc, int) {
+void set_up_rrk(PC pc, int, InterfaceCoupling*) {
   register_rrk();
   petsc(PCSetType(pc, PCKSP));
   set_defaults(pc, {{"ksp_ksp_type", "rrk"}, {"ksp_ksp_max_it", "3"}, {"ksp_pc_type", "pbjacobi"}});
@@ -42,6 +42,7 @@ void set_up_rrk(PC pc, int) {
 /// Aggregates are chosen when the matrix has its first values.
 struct LateMultigrid {
   int ilu_levels;
+  InterfaceCoupling* coupling;
   std::optional<Multigrid> cycle;
 };
 
@@ -58,7 +59,7 @@ PetscErrorCode renew_multigrid(PC pc) {
     const char* prefix = nullptr;
     petsc(PCGetOperators(pc, &product, &matrix));
     petsc(PCGetOptionsPrefix(pc, &prefix));
-    if (!late.cycle) late.cycle.emplace(product, matrix, late.ilu_levels, prefix);
+    if (!late.cycle) late.cycle.emplace(product, matrix, late.ilu_levels, late.coupling, prefix);
     late.cycle->renew();
   });
 }
@@ -71,31 +72,31 @@ PetscErrorCode destroy_multigrid(PC pc) {
   return CallbackGuard().run([pc] { delete &multigrid(pc); });
 }
 
-void set_up_rrk_multigrid(PC pc, int levels) {
+void set_up_rrk_multigrid(PC pc, int levels, InterfaceCoupling* coupling) {
   petsc(PCSetType(pc, PCSHELL));
   petsc(PCShellSetName(pc, "aggregation multigrid, rational Runge-Kutta over block ILU"));
-  petsc(PCShellSetContext(pc, new LateMultigrid{levels, {}}));
+  petsc(PCShellSetContext(pc, new LateMultigrid{levels, coupling, {}}));
   petsc(PCShellSetSetUp(pc, renew_multigrid));
   petsc(PCShellSetApply(pc, apply_multigrid));
   petsc(PCShellSetDestroy(pc, destroy_multigrid));
 }
 
-void set_up_point_block_jacobi(PC pc, int) { petsc(PCSetType(pc, PCPBJACOBI)); }
+void set_up_point_block_jacobi(PC pc, int, InterfaceCoupling*) { petsc(PCSetType(pc, PCPBJACOBI)); }
 
-void set_up_lu(PC pc, int) { set_up_everywhere_lu(pc); }
+void set_up_lu(PC pc, int, InterfaceCoupling*) { set_up_everywhere_lu(pc); }
 
-void set_up_none(PC pc, int) { petsc(PCSetType(pc, PCNONE)); }
+void set_up_none(PC pc, int, InterfaceCoupling*) { petsc(PCSetType(pc, PCNONE)); }
 
 }  // namespace
 
 const Preconditioner kPreconditioners[7] = {
-    {"ilu", true, false, set_up_block_ilu},
-    {"asm", true, false, set_up_asm},
-    {"rrk", true, false, set_up_rrk},
-    {"rrk-multigrid", true, false, set_up_rrk_multigrid},
-    {"point_block_jacobi", true, false, set_up_point_block_jacobi},
-    {"lu", true, true, set_up_lu},
-    {"none", false, false, set_up_none},
+    {"ilu", true, false, true, set_up_block_ilu},
+    {"asm", true, false, false, set_up_asm},
+    {"rrk", true, false, false, set_up_rrk},
+    {"rrk-multigrid", true, false, true, set_up_rrk_multigrid},
+    {"point_block_jacobi", true, false, false, set_up_point_block_jacobi},
+    {"lu", true, true, false, set_up_lu},
+    {"none", false, false, false, set_up_none},
 };
 
 const Preconditioner& preconditioner(const std::string& name) {

@@ -6,11 +6,15 @@
 
 namespace windhover::fluid {
 
+class InterfaceCoupling;
+
 struct Preconditioner {
   const char* name;
   bool assembled;                         ///< needs the first-order Jacobian
   bool point_matrix;                      ///< wants it entry by entry (AIJ), not in blocks
-  void (*set_up)(PC pc, int ilu_levels);  ///< called once; solvers' options still override
+  bool coupled;                           ///< knows what sliding interfaces add
+  /// Called once; solvers' options still override. No coupling where there are no interfaces.
+  void (*set_up)(PC pc, int ilu_levels, InterfaceCoupling* coupling);
 };
 
 /// ilu (each rank's own part), asm (overlap one), rrk (a few rational Runge–Kutta steps), rrk-multigrid (aggregation

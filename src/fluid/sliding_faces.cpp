@@ -50,10 +50,21 @@ void SlidingFaces::number_cells() {
                         remote.data(), PETSC_COPY_VALUES));
 }
 
-void SlidingFaces::broadcast(void* rows, int doubles) const {
+std::vector<mesh::Index> SlidingFaces::own_cells() const {
+  std::vector<mesh::Index> cells;
+  for (const auto& sides : face_cell_)
+    for (const auto& side : sides)
+      for (const int row : side)
+        if (row >= 0 && row < mesh_.n_owned) cells.push_back(row);
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
+void SlidingFaces::exchange(double* rows, int n) const {
   if (empty()) return;
   MPI_Datatype row;
-  MPI_Type_contiguous(doubles, MPI_DOUBLE, &row);
+  MPI_Type_contiguous(n, MPI_DOUBLE, &row);
   MPI_Type_commit(&row);
   petsc(PetscSFBcastBegin(remote_, row, rows, rows, MPI_REPLACE));
   petsc(PetscSFBcastEnd(remote_, row, rows, rows, MPI_REPLACE));

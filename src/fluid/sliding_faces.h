@@ -26,14 +26,19 @@ class SlidingFaces {
   bool covers(int patch) const;
   /// The zone whose frame the blocks of an interface are in.
   int frame_zone(size_t i) const { return interfaces_[i].zone(1); }
+  /// The zones of cell[0] and cell[1] of its blocks.
+  std::array<int, 2> zones(size_t i) const { return {interfaces_[i].zone(0), interfaces_[i].zone(1)}; }
+  /// This rank's cells at an interface, in ascending order.
+  std::vector<mesh::Index> own_cells() const;
 
   /// Blocks of each interface at these frames, in the parent's frame, normals from the inner zone (cell[0]) to the parent.
   /// Collective; SolverFailure when the pieces do not sum to the faces (audit).
   const std::vector<std::vector<mesh::FaceBlock>>& blocks(const Frames& frames);
 
-  /// Fills the rows of other ranks' cells. Collective.
-  void exchange(std::vector<Row>& rows) const { broadcast(rows.data(), 8); }
-  void exchange(std::vector<GradientRow>& gradients) const { broadcast(gradients.data(), 16); }
+  /// Fills the rows of other ranks' cells, n numbers each. Collective.
+  void exchange(double* rows, int n) const;
+  void exchange(std::vector<Row>& rows) const { exchange(rows.data()->v, 8); }
+  void exchange(std::vector<GradientRow>& gradients) const { exchange(gradients.data()->v, 16); }
 
  private:
   struct Position {
@@ -41,7 +46,6 @@ class SlidingFaces {
     std::vector<std::vector<mesh::FaceBlock>> blocks;
   };
   void number_cells();
-  void broadcast(void* rows, int doubles) const;
   double angle(const mesh::SlidingInterface& interface, const Frames& frames) const;
   std::vector<mesh::FaceBlock> make_blocks(size_t i, double angle) const;
 

@@ -75,7 +75,7 @@ int iterations(const char* name, int n) {
   petsc(KSPSetOperators(ksp, matrix, matrix));
   petsc(KSPSetTolerances(ksp, 1e-6, 0, PETSC_DEFAULT, 200));
   petsc(KSPGetPC(ksp, &pc));
-  preconditioner(name).set_up(pc, 0);
+  preconditioner(name).set_up(pc, 0, nullptr);
   petsc(KSPSolve(ksp, b, x));
   petsc(KSPGetIterationNumber(ksp, &count));
   return count;

@@ -1,0 +1,35 @@
+// How the cells on both sides of a sliding interface act on each other: what the assembled Jacobian cannot hold, since
+// they are others at every step.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "fluid/euler.h"
+
+namespace windhover::fluid {
+
+/// The first-order Jacobian's blocks C between zones at the present frames.
+class InterfaceCoupling {
+ public:
+  explicit InterfaceCoupling(EulerOperator& euler);
+
+  /// C = scale dR/dq of the first-order scheme between zones, in the axes from which `turn` leads to those of `frames`.
+  void renew(Vec q, const Frames& frames, double scale, const ZoneTurn& turn);
+  /// sum −= C x, five values per owned cell. x is asked for where it counts: at(cell, to) writes the five values of an
+  /// owned cell. Collective.
+  template <class At>
+  void subtract_product(At&& at, double* sum) {
+    for (const mesh::Index c : cells_) at(c, x_.get() + size_t(kVariables) * c);
+    subtract_product(sum);
+  }
+
+ private:
+  void subtract_product(double* sum);
+
+  EulerOperator& euler_;
+  std::vector<InterfaceBlock> blocks_;
+  std::vector<mesh::Index> cells_;  ///< owned, at an interface
+  std::unique_ptr<double[]> x_;     ///< five per row of SlidingFaces; only those at an interface are ever touched
+};
+
+}  // namespace windhover::fluid
