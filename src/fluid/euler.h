@@ -76,8 +76,10 @@ class EulerOperator {
   /// out = (mass V + rate dR/dq) dq, exact (forward mode); dq and out in the axes from which `turn` leads to the state's.
   void derivative(Vec dq, Vec out, const Combination& combination = {}, const ZoneTurn& turn = {});
 
-  /// jacobian = scale · d(first-order residual)/dq + diagonal(mass_scale · volume).
-  void first_order_jacobian(Vec q, const Frames& frames, double scale, double mass_scale, BlockJacobian& jacobian);
+  /// jacobian = scale · d(first-order residual)/dq + diagonal(mass_scale · volume). `damping`: a speed by which the
+  /// dissipation of each wave between cells is more than the residual's.
+  void first_order_jacobian(Vec q, const Frames& frames, double scale, double mass_scale, BlockJacobian& jacobian,
+                            double damping = 0);
 
   /// blocks: scale · d(first-order residual)/dq between owned cells and those of other zones, one for each piece of an
   /// interface, in the axes from which `turn` leads to those of `frames`.

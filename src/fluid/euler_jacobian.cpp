@@ -25,12 +25,13 @@ struct alignas(64) LaneBlocks {
 }  // namespace
 
 void EulerOperator::first_order_jacobian(Vec q, const Frames& frames, double scale, double mass_scale,
-                                         BlockJacobian& jacobian) {
+                                         BlockJacobian& jacobian, double damping) {
   load_cells(q, frames, nullptr, cells_);
   jacobian.begin();
   // across an interface only the cells' own blocks: the neighbours change from step to step
-  for_each_interface(frames, [&](const FaceInput& in, const FaceBlock* blocks, int n) {
+  for_each_interface(frames, [&](FaceInput in, const FaceBlock* blocks, int n) {
     BlockPack sides[2];
+    in.damping = damping;
     for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
       model_.flux->jacobian(in, *b, sides);
       for (int s = 0; s < 2; ++s) {
@@ -43,8 +44,9 @@ void EulerOperator::first_order_jacobian(Vec q, const Frames& frames, double sca
   });
   for_each_group(
       frames,
-      [&](const FaceInput& in, const FaceBlock* blocks, int n) {
+      [&](FaceInput in, const FaceBlock* blocks, int n) {
         BlockPack sides[2];
+        in.damping = damping;
         for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
           const size_t first = size_t(b - mesh_.faces.data()) * mesh::kLanes;
           for (int i = 0; i < b->count; ++i) jacobian.prefetch_face(first + i);
@@ -70,21 +72,15 @@ void EulerOperator::first_order_jacobian(Vec q, const Frames& frames, double sca
 void EulerOperator::interface_jacobian(Vec q, const Frames& frames, double scale, const ZoneTurn& turn,
                                        std::vector<InterfaceBlock>& result) {
   typedef Eigen::Matrix<double, kVariables, kVariables> Block;
-  const auto momentum_turn = [&](const mesh::Mat3& turned) {
-    Block t = Block::Identity();
-    t.block<3, 3>(1, 1) = turned;
-    return t;
-  };
   load_cells(q, frames, nullptr, cells_);
   result.clear();
   const auto& interfaces = sliding_.blocks(frames);
   for (size_t i = 0; i < interfaces.size(); ++i) {
     const FaceInput in = face_input(frames[sliding_.frame_zone(i)]);
-    Block back[2], forth[2];
-    for (int s = 0; s < 2; ++s) {
-      const size_t zone = sliding_.zones(i)[s];
-      back[s] = turn.none() ? Block(Block::Identity()) : momentum_turn(turn.back(zone));
-      forth[s] = turn.none() ? Block(Block::Identity()) : momentum_turn(turn.forth(zone));
+    Block back[2] = {Block::Identity(), Block::Identity()}, forth[2] = {Block::Identity(), Block::Identity()};
+    for (int s = 0; s < 2 && !turn.none(); ++s) {
+      back[s].block<3, 3>(1, 1) = turn.back(sliding_.zones(i)[s]);
+      forth[s].block<3, 3>(1, 1) = turn.forth(sliding_.zones(i)[s]);
     }
     BlockPack sides[2];
     for (const FaceBlock& b : interfaces[i]) {

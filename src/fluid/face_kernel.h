@@ -48,6 +48,7 @@ struct FaceInput {
   double gamma = 1.4;
   double limiter_threshold = 0;  ///< squared difference below which nothing is limited
   State<double> far{};
+  double damping = 0;  ///< speed that assembled blocks add to that of each wave in the dissipation
 };
 
 struct FaceGeometry {

@@ -53,6 +53,11 @@ template <class FluxScheme>
     store_column(FluxScheme::flux(fixed_l, seeded_state(r.state, k, in.gamma), face.normal, mach, in.gamma), face.area,
                  k, sides[1]);
   }
+  const Pack damping = 0.5 * in.damping * face.area;
+  for (int k = 0; k < kVariables; ++k) {
+    Pack &own = sides[0][(kVariables + 1) * k], &other = sides[1][(kVariables + 1) * k];
+    own += damping, other = other - damping;
+  }
 }
 
 template <class FluxScheme>

@@ -8,6 +8,10 @@
 namespace windhover::fluid {
 namespace {
 
+// Added to the speed of each wave in the preconditioner's dissipation, in the far field's speed of sound: in small cells what
+// the flow carries turns round from step to step, and a matrix from before would take it from the wrong side.
+constexpr double kDamping = 0.05;
+
 constexpr double kLeastFraction = 0.2;  // density and pressure keep at least this much of themselves in one update
 
 bool keeps_positive(const double* q, const double* change, double fraction, double gamma) {
@@ -140,7 +144,7 @@ PetscErrorCode NewtonKrylov::form_jacobian(SNES, Vec x, Mat j, Mat, void* contex
   return self.guard_.run([&] {
     const StageEquation& e = *self.equation_;
     if (self.jacobian_ && self.rebuild_) {
-      self.euler_.first_order_jacobian(x, e.frames, e.combination.rate, e.combination.mass, *self.jacobian_);
+      self.euler_.first_order_jacobian(x, e.frames, e.combination.rate, e.combination.mass, *self.jacobian_, kDamping);
       if (self.converted_) {
         Mat reused = self.converted_;
         petsc(MatConvert(self.jacobian_->matrix(), MATAIJ, MAT_REUSE_MATRIX, &reused));

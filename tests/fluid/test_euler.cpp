@@ -76,6 +76,33 @@ TEST_CASE("the assembled Jacobian is the first-order operator's derivative", "[e
   CHECK(distance(product, exact) < tolerance * norm(exact));
 }
 
+TEST_CASE("damping in the assembled Jacobian takes from differences between cells and keeps sums", "[euler]") {
+  Setup s("mixed");
+  EulerOperator euler(s.mesh, s.model);
+  const Frames frames = frames_of(s.mesh, tumbling())(0.7);
+  const VecHandle q = noisy_state(euler, frames, 0.05);
+  const VecHandle dq = euler.make_vector(), even = euler.make_vector(), plain = euler.make_vector(), damped = euler.make_vector();
+  add_noise(euler, 1.0, dq);
+  petsc(VecSet(even, 1.0));
+  BlockJacobian jacobian(s.mesh);
+  // plain = J x, damped = (J with damping − J) x
+  const auto difference = [&](Vec x) {
+    euler.first_order_jacobian(q, frames, 0.5, 7.0, jacobian);
+    petsc(MatMult(jacobian.matrix(), x, plain));
+    euler.first_order_jacobian(q, frames, 0.5, 7.0, jacobian, 0.1);
+    petsc(MatMult(jacobian.matrix(), x, damped));
+    petsc(VecAXPY(damped, -1.0, plain));
+  };
+  difference(dq);
+  double along = 0, sum = 0;
+  petsc(VecDot(dq, damped, &along));
+  petsc(VecSum(damped, &sum));
+  CHECK(along > 0.01 * norm(dq) * norm(damped));
+  CHECK(std::abs(sum) < 1e-12 * norm(damped, NORM_1));
+  difference(even);
+  CHECK(norm(damped) < 1e-12 * norm(plain));
+}
+
 TEST_CASE("the loads on a closed wall of uniform pressure vanish, moments are about the inertial origin", "[euler]") {
   Setup s("cube");
   EulerOperator euler(s.mesh, s.model);
