@@ -4,7 +4,7 @@
 
 #include "fluid/block_ilu.h"
 #include "fluid/block_matrix.h"
-#include "fluid/interface_coupling.h"
+#include "fluid/interface_band.h"
 
 namespace windhover::fluid {
 namespace {
@@ -14,23 +14,13 @@ struct OwnIlu {
   int levels;
   InterfaceCoupling* coupling;
   std::optional<BlockIlu> factors;
-  std::vector<double> coupled;  ///< b − C D⁻¹ b
-
-  const double* right_side(const double* b, PetscInt n);
+  std::optional<InterfaceBand> band;
 };
 
 OwnIlu& own_ilu(PC pc) {
   void* context = nullptr;
   petsc(PCShellGetContext(pc, &context));
   return *static_cast<OwnIlu*>(context);
-}
-
-const double* OwnIlu::right_side(const double* b, PetscInt n) {
-  if (!coupling) return b;
-  coupled.assign(b, b + n);
-  coupling->subtract_product(
-      [&](mesh::Index cell, double* own) { factors->solve_row(cell, b + size_t(kVariables) * cell, own); }, coupled.data());
-  return coupled.data();
 }
 
 PetscErrorCode factor_own(PC pc) {
@@ -42,10 +32,11 @@ PetscErrorCode factor_own(PC pc) {
     if (!ilu.factors) {
       const BlockPattern pattern(inside);
       ilu.factors.emplace(pattern.rows(), pattern.start(), pattern.column(), ilu.levels);
+      if (ilu.coupling) ilu.band.emplace(*ilu.coupling, pattern);
     }
     PetscScalar* blocks = nullptr;
     petsc(MatSeqBAIJGetArray(inside, &blocks));
-    const bool regular = ilu.factors->factor(blocks);
+    const bool regular = ilu.factors->factor(blocks) && (!ilu.band || ilu.band->factor(blocks));
     petsc(MatSeqBAIJRestoreArray(inside, &blocks));
     petsc(PCSetFailedReason(pc, regular ? PC_NOERROR : PC_FACTOR_NUMERIC_ZEROPIVOT));
   });
@@ -54,13 +45,11 @@ PetscErrorCode factor_own(PC pc) {
 PetscErrorCode apply_own(PC pc, Vec b, Vec x) {
   return CallbackGuard().run([=] {
     OwnIlu& ilu = own_ilu(pc);
-    PetscInt n = 0;
     const double* from = nullptr;
     double* to = nullptr;
-    petsc(VecGetLocalSize(b, &n));
     petsc(VecGetArrayRead(b, &from));
     petsc(VecGetArrayWrite(x, &to));
-    ilu.factors->solve(ilu.right_side(from, n), to);
+    ilu.factors->solve(ilu.band ? ilu.band->right_side(from) : from, to);
     petsc(VecRestoreArrayWrite(x, &to));
     petsc(VecRestoreArrayRead(b, &from));
   });

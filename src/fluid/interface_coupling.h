@@ -15,6 +15,8 @@ class InterfaceCoupling {
 
   /// C = scale dR/dq of the first-order scheme between zones, in the axes from which `turn` leads to those of `frames`.
   void renew(Vec q, const Frames& frames, double scale, const ZoneTurn& turn);
+  /// This rank's cells at an interface and so many layers of neighbours, ascending.
+  std::vector<mesh::Index> cells_within(int layers) const;
   /// sum −= C x, five values per owned cell. x is asked for where it counts: at(cell, to) writes the five values of an
   /// owned cell. Collective.
   template <class At>

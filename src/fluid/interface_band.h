@@ -1,0 +1,37 @@
+// What crosses sliding interfaces, for preconditioners whose matrix does not hold it: guessed from factors of the cells near
+// an interface alone.
+#pragma once
+#include <vector>
+
+#include "fluid/block_ilu.h"
+#include "fluid/block_matrix.h"
+#include "fluid/interface_coupling.h"
+
+namespace windhover::fluid {
+
+class InterfaceBand {
+ public:
+  /// `whole`: the matrix A of this rank's own cells.
+  InterfaceBand(InterfaceCoupling& coupling, const BlockPattern& whole);
+
+  /// Blocks of the whole matrix. False: some pivot cannot be inverted.
+  bool factor(const double* blocks);
+  /// b − C x, five values per owned cell, with B x = b − C D⁻¹ b by incomplete factors of B, A's part near an interface, and D
+  /// their pivots. Valid until the next call. Collective.
+  const double* right_side(const double* b);
+
+ private:
+  struct Pattern {
+    std::vector<int> start{0}, column;
+  };
+  Pattern cut(const BlockPattern& whole);
+
+  InterfaceCoupling& coupling_;
+  std::vector<mesh::Index> cells_;  ///< near an interface, ascending
+  std::vector<int> place_;          ///< of each owned cell among them, or −1
+  std::vector<int> from_;           ///< where each block of B is in the whole matrix
+  BlockIlu factors_;
+  std::vector<double> sum_, b_, x_;  ///< for all owned cells; for those near an interface
+};
+
+}  // namespace windhover::fluid
