@@ -174,5 +174,5 @@ TEST_CASE("incomplete factors that know what crosses an interface leave less of 
   petsc(VecRestoreArray(b, &v));
   const double apart = remainder_of(euler, a, c, false, b), coupled = remainder_of(euler, a, c, true, b);
   CAPTURE(sphere, apart, coupled);
-  CHECK(coupled < 0.3 * apart);  // two ranks and more see less of each other: 0.04 on one, 0.22 on three
+  CHECK(coupled < 0.25 * apart);  // 0.04 on one rank, 0.22 on three; with each cell's own block for a guess 0.26 to 0.33
 }
