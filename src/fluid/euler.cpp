@@ -138,8 +138,8 @@ VecHandle EulerOperator::make_vector() const {
   return v;
 }
 
-/// Fills rows from the conserved state, or from its derivative along *dq, halo included; `turn` leads from the axes of dq.
-void EulerOperator::load_cells(Vec q, const Frames& frames, const Vec* dq, std::vector<Row>& rows, const ZoneTurn& turn) {
+/// Fills own rows from the conserved state, or from its derivative along *dq; `turn` leads from the axes of dq.
+void EulerOperator::fill_cells(Vec q, const Frames& frames, const Vec* dq, std::vector<Row>& rows, const ZoneTurn& turn) {
   const double *values = nullptr, *derivatives = nullptr;
   petsc(VecGetArrayRead(q, &values));
   if (dq) petsc(VecGetArrayRead(*dq, &derivatives));
@@ -172,23 +172,34 @@ void EulerOperator::load_cells(Vec q, const Frames& frames, const Vec* dq, std::
   }
   petsc(VecRestoreArrayRead(q, &values));
   if (dq) petsc(VecRestoreArrayRead(*dq, &derivatives));
-  exchange(rows);
 }
 
-void EulerOperator::exchange(std::vector<Row>& rows) const {
-  MPI_Datatype row;
-  MPI_Type_contiguous(8, MPI_DOUBLE, &row);
-  MPI_Type_commit(&row);
-  petsc(PetscSFBcastBegin(mesh_.halo, row, rows.data(), rows.data(), MPI_REPLACE));
-  petsc(PetscSFBcastEnd(mesh_.halo, row, rows.data(), rows.data(), MPI_REPLACE));
-  MPI_Type_free(&row);
-  sliding_.exchange(rows);
+void EulerOperator::exchange_halo(std::vector<Row>& rows) const {
+  petsc(PetscSFBcastBegin(mesh_.halo, row_type_, rows.data(), rows.data(), MPI_REPLACE));
+  petsc(PetscSFBcastEnd(mesh_.halo, row_type_, rows.data(), rows.data(), MPI_REPLACE));
 }
 
 void EulerOperator::update_gradients(const std::vector<Row>& rows, std::vector<GradientRow>& gradients) const {
   if (green_gauss_) green_gauss_->apply(rows.data(), gradients.data());
   if (least_squares_) least_squares_->apply(rows.data(), gradients.data());
-  if (!gradients.empty()) sliding_.exchange(gradients);
+}
+
+void EulerOperator::begin_interfaces(std::vector<Row>& rows, std::vector<GradientRow>& gradients) const {
+  sliding_.begin_exchange(rows.data(), row_type_);
+  if (!gradients.empty()) sliding_.begin_exchange(gradients.data(), gradient_type_);
+}
+
+void EulerOperator::end_interfaces(std::vector<Row>& rows, std::vector<GradientRow>& gradients) const {
+  sliding_.end_exchange(rows.data(), row_type_);
+  if (!gradients.empty()) sliding_.end_exchange(gradients.data(), gradient_type_);
+}
+
+/// Rows of q, also of other ranks' cells at interfaces.
+void EulerOperator::load_cells(Vec q, const Frames& frames) {
+  fill_cells(q, frames, nullptr, cells_);
+  exchange_halo(cells_);
+  sliding_.begin_exchange(cells_.data(), row_type_);
+  sliding_.end_exchange(cells_.data(), row_type_);
 }
 
 FaceInput EulerOperator::face_input(const FrameState& frame) const {
@@ -246,28 +257,34 @@ void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination, 
   petsc(VecRestoreArrayWrite(out, &to));
 }
 
-/// Rows and gradients of q.
+/// Rows and gradients of q, not of other ranks' cells at interfaces.
 void EulerOperator::prepare(Vec q, const Frames& frames) {
-  load_cells(q, frames, nullptr, cells_);
+  fill_cells(q, frames, nullptr, cells_);
+  exchange_halo(cells_);
   update_gradients(cells_, gradients_);
-  frames_ = frames;
 }
 
-void EulerOperator::sum_rates(const Frames& frames, FluxKernels::Sum interior, BoundaryKernels::Sum boundary) {
+/// From own rows of the cells. The zones' own faces come while other ranks' rows at interfaces are under way.
+void EulerOperator::sum_rates(std::vector<Row>& cells, std::vector<GradientRow>& gradients, const Frames& frames,
+                              FluxKernels::Sum interior, BoundaryKernels::Sum boundary) {
+  exchange_halo(cells);
+  update_gradients(cells, gradients);
+  begin_interfaces(cells, gradients);
   const auto between_cells = [&](const FaceInput& in, const mesh::FaceBlock* blocks, int n) {
     interior(in, blocks, n, rates_.data());
   };
-  for_each_interface(frames, between_cells);
   for_each_group(frames, between_cells,
                  [&](const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int n, int) {
                    boundary(in, kind, blocks, n, rates_.data());
                  });
+  end_interfaces(cells, gradients);
+  for_each_interface(frames, between_cells);
 }
 
 void EulerOperator::residual(Vec q, const Frames& frames, Vec out, const Combination& combination) {
-  prepare(q, frames);
+  fill_cells(q, frames, nullptr, cells_);
   const int r = static_cast<int>(model_.reconstruction);
-  sum_rates(frames, model_.flux->residual[r], kBoundaryKernels.residual[r]);
+  sum_rates(cells_, gradients_, frames, model_.flux->residual[r], kBoundaryKernels.residual[r]);
   store_rates(q, out, combination);
 }
 
@@ -275,6 +292,9 @@ void EulerOperator::linearize(Vec q, const Frames& frames) {
   if (!base_) base_ = make_vector();
   petsc(VecCopy(q, base_));
   prepare(q, frames);
+  begin_interfaces(cells_, gradients_);
+  end_interfaces(cells_, gradients_);
+  frames_ = frames;
   if (d_cells_.empty()) {
     d_cells_.resize(cells_.size());
     d_gradients_.resize(gradients_.size());
@@ -284,10 +304,9 @@ void EulerOperator::linearize(Vec q, const Frames& frames) {
 }
 
 void EulerOperator::derivative(Vec dq, Vec out, const Combination& combination, const ZoneTurn& turn) {
-  load_cells(base_, frames_, &dq, d_cells_, turn);
-  update_gradients(d_cells_, d_gradients_);
+  fill_cells(base_, frames_, &dq, d_cells_, turn);
   const int r = static_cast<int>(model_.reconstruction);
-  sum_rates(frames_, model_.flux->derivative[r], kBoundaryKernels.derivative[r]);
+  sum_rates(d_cells_, d_gradients_, frames_, model_.flux->derivative[r], kBoundaryKernels.derivative[r]);
   store_rates(dq, out, combination, turn);
 }
 

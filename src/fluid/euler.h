@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/mpi_type.h"
 #include "fluid/block_jacobian.h"
 #include "fluid/boundary_kernels.h"
 #include "fluid/gradient.h"
@@ -106,9 +107,12 @@ class EulerOperator {
   double courant_number(Vec q, const Frames& frames, double dt);
 
  private:
-  void load_cells(Vec q, const Frames& frames, const Vec* dq, std::vector<Row>& rows, const ZoneTurn& turn = {});
-  void exchange(std::vector<Row>& rows) const;
+  void fill_cells(Vec q, const Frames& frames, const Vec* dq, std::vector<Row>& rows, const ZoneTurn& turn = {});
+  void load_cells(Vec q, const Frames& frames);
+  void exchange_halo(std::vector<Row>& rows) const;
   void update_gradients(const std::vector<Row>& rows, std::vector<GradientRow>& gradients) const;
+  void begin_interfaces(std::vector<Row>& rows, std::vector<GradientRow>& gradients) const;
+  void end_interfaces(std::vector<Row>& rows, std::vector<GradientRow>& gradients) const;
   FaceInput face_input(const mesh::FrameState& frame) const;
   /// Calls interior(input, blocks, count) for each zone and boundary(input, kind, blocks, count, patch) for each patch.
   template <class Interior, class Boundary>
@@ -132,13 +136,15 @@ class EulerOperator {
     for (size_t i = 0; i < blocks.size(); ++i)
       visit(face_input(frames[sliding_.frame_zone(i)]), blocks[i].data(), static_cast<int>(blocks[i].size()));
   }
-  void sum_rates(const Frames& frames, FluxKernels::Sum interior, BoundaryKernels::Sum boundary);
+  void sum_rates(std::vector<Row>& cells, std::vector<GradientRow>& gradients, const Frames& frames,
+                 FluxKernels::Sum interior, BoundaryKernels::Sum boundary);
   void store_rates(Vec x, Vec out, const Combination& combination, const ZoneTurn& turn = {});
   void prepare(Vec q, const Frames& frames);
 
   const mesh::Mesh& mesh_;
   FlowModel model_;
   SlidingFaces sliding_;
+  MpiType row_type_{8}, gradient_type_{16};
   std::vector<std::optional<BoundaryKind>> patch_kind_;  ///< none: an interface
   std::vector<mesh::Range> zone_cells_;                  ///< owned cells of each zone
   std::optional<GreenGauss> green_gauss_;

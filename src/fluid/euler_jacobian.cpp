@@ -26,7 +26,7 @@ struct alignas(64) LaneBlocks {
 
 void EulerOperator::first_order_jacobian(Vec q, const Frames& frames, double scale, double mass_scale,
                                          BlockJacobian& jacobian, double damping) {
-  load_cells(q, frames, nullptr, cells_);
+  load_cells(q, frames);
   jacobian.begin();
   // across an interface only the cells' own blocks: the neighbours change from step to step
   for_each_interface(frames, [&](FaceInput in, const FaceBlock* blocks, int n) {
@@ -72,7 +72,7 @@ void EulerOperator::first_order_jacobian(Vec q, const Frames& frames, double sca
 void EulerOperator::interface_jacobian(Vec q, const Frames& frames, double scale, const ZoneTurn& turn,
                                        std::vector<InterfaceBlock>& result) {
   typedef Eigen::Matrix<double, kVariables, kVariables> Block;
-  load_cells(q, frames, nullptr, cells_);
+  load_cells(q, frames);
   result.clear();
   const auto& interfaces = sliding_.blocks(frames);
   for (size_t i = 0; i < interfaces.size(); ++i) {

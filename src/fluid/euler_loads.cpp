@@ -88,7 +88,7 @@ std::vector<State<double>> EulerOperator::patch_states(Vec q, const Frames& fram
 }
 
 std::vector<double> EulerOperator::spectral_radii(Vec q, const Frames& frames) {
-  load_cells(q, frames, nullptr, cells_);
+  load_cells(q, frames);
   std::vector<double> radii(rates_.size(), 0.0);
   const auto add = [&](const FaceInput& in, const FaceBlock* blocks, int n, int sides) {
     for (const FaceBlock* b = blocks; b < blocks + n; ++b) {

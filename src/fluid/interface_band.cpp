@@ -6,7 +6,7 @@ namespace windhover::fluid {
 namespace {
 
 constexpr int kLayers = 3;  // of cells beside an interface's own
-constexpr int kFill = 1;    // levels: more are not felt beyond the interface
+constexpr int kFill = 1;    // levels: with 2 or 3 no Krylov iteration less
 constexpr size_t kBlock = kVariables * kVariables;
 
 template <class Number>

@@ -28,7 +28,8 @@ std::vector<mesh::Index> InterfaceCoupling::cells_within(int layers) const {
 }
 
 void InterfaceCoupling::subtract_product(double* sum) {
-  euler_.sliding_faces().exchange(x_.get(), kVariables);
+  euler_.sliding_faces().begin_exchange(x_.get(), five_);
+  euler_.sliding_faces().end_exchange(x_.get(), five_);
   typedef Eigen::Matrix<double, kVariables, 1> Five;
   for (const InterfaceBlock& b : blocks_)
     Five::Map(sum + size_t(kVariables) * b.row) -= b.block.cast<double>() * Five::Map(x_.get() + size_t(kVariables) * b.column);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/mpi_type.h"
 #include "fluid/euler.h"
 
 namespace windhover::fluid {
@@ -29,6 +30,7 @@ class InterfaceCoupling {
   void subtract_product(double* sum);
 
   EulerOperator& euler_;
+  MpiType five_{kVariables};
   std::vector<InterfaceBlock> blocks_;
   std::vector<mesh::Index> cells_;  ///< owned, at an interface
   std::unique_ptr<double[]> x_;     ///< five per row of SlidingFaces; only those at an interface are ever touched

@@ -61,14 +61,12 @@ std::vector<mesh::Index> SlidingFaces::own_cells() const {
   return cells;
 }
 
-void SlidingFaces::exchange(double* rows, int n) const {
-  if (empty()) return;
-  MPI_Datatype row;
-  MPI_Type_contiguous(n, MPI_DOUBLE, &row);
-  MPI_Type_commit(&row);
-  petsc(PetscSFBcastBegin(remote_, row, rows, rows, MPI_REPLACE));
-  petsc(PetscSFBcastEnd(remote_, row, rows, rows, MPI_REPLACE));
-  MPI_Type_free(&row);
+void SlidingFaces::begin_exchange(void* rows, MPI_Datatype row) const {
+  if (!empty()) petsc(PetscSFBcastBegin(remote_, row, rows, rows, MPI_REPLACE));
+}
+
+void SlidingFaces::end_exchange(void* rows, MPI_Datatype row) const {
+  if (!empty()) petsc(PetscSFBcastEnd(remote_, row, rows, rows, MPI_REPLACE));
 }
 
 /// By which angle the inner zone is turned about the interface's axis, relative to the parent.

@@ -35,10 +35,9 @@ class SlidingFaces {
   /// Collective; SolverFailure when the pieces do not sum to the faces (audit).
   const std::vector<std::vector<mesh::FaceBlock>>& blocks(const Frames& frames);
 
-  /// Fills the rows of other ranks' cells, n numbers each. Collective.
-  void exchange(double* rows, int n) const;
-  void exchange(std::vector<Row>& rows) const { exchange(rows.data()->v, 8); }
-  void exchange(std::vector<GradientRow>& gradients) const { exchange(gradients.data()->v, 16); }
+  /// Between begin and end the rows of other ranks' cells are filled, and no rows may change. Collective.
+  void begin_exchange(void* rows, MPI_Datatype row) const;
+  void end_exchange(void* rows, MPI_Datatype row) const;
 
  private:
   struct Position {

@@ -2,26 +2,9 @@
 
 #include <cassert>
 
+#include "base/mpi_type.h"
+
 namespace windhover::io {
-namespace {
-
-/// `columns` doubles as one MPI unit.
-class RowType {
- public:
-  explicit RowType(int columns) {
-    MPI_Type_contiguous(columns, MPI_DOUBLE, &type_);
-    MPI_Type_commit(&type_);
-  }
-  ~RowType() { MPI_Type_free(&type_); }
-  RowType(const RowType&) = delete;
-  RowType& operator=(const RowType&) = delete;
-  operator MPI_Datatype() const { return type_; }
-
- private:
-  MPI_Datatype type_;
-};
-
-}  // namespace
 
 RowExchange::RowExchange(std::span<const PetscInt> row, MPI_Comm comm) : n_items_(PetscInt(row.size())) {
   MPI_Allreduce(&n_items_, &n_total_, 1, MPIU_INT, MPI_SUM, comm);
@@ -36,7 +19,7 @@ RowExchange::RowExchange(std::span<const PetscInt> row, MPI_Comm comm) : n_items
 
 std::vector<double> RowExchange::to_rows(std::span<const double> items, int columns) const {
   assert(items.size() == size_t(n_items_) * columns);
-  const RowType type(columns);
+  const MpiType type(columns);
   std::vector<double> rows(size_t(n_rows_) * columns);
   petsc(PetscSFReduceBegin(sf_, type, items.data(), rows.data(), MPI_REPLACE));
   petsc(PetscSFReduceEnd(sf_, type, items.data(), rows.data(), MPI_REPLACE));
@@ -45,7 +28,7 @@ std::vector<double> RowExchange::to_rows(std::span<const double> items, int colu
 
 std::vector<double> RowExchange::to_items(std::span<const double> rows, int columns) const {
   assert(rows.size() == size_t(n_rows_) * columns);
-  const RowType type(columns);
+  const MpiType type(columns);
   std::vector<double> items(size_t(n_items_) * columns);
   petsc(PetscSFBcastBegin(sf_, type, rows.data(), items.data(), MPI_REPLACE));
   petsc(PetscSFBcastEnd(sf_, type, rows.data(), items.data(), MPI_REPLACE));

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "base/mpi_type.h"
 #include "mesh/cell_shape.h"
 
 namespace windhover::mesh {
@@ -112,24 +113,8 @@ class PartCutter {
   std::vector<Index> node_cells_;
 };
 
-/// A vector of plain records as MPI sees it: counts in records, so that large parts stay below the limit of int.
-class RecordType {
- public:
-  explicit RecordType(std::size_t bytes) {
-    MPI_Type_contiguous(static_cast<int>(bytes), MPI_BYTE, &type_);
-    MPI_Type_commit(&type_);
-  }
-  ~RecordType() { MPI_Type_free(&type_); }
-  RecordType(const RecordType&) = delete;
-  RecordType& operator=(const RecordType&) = delete;
-  operator MPI_Datatype() const { return type_; }
-
- private:
-  MPI_Datatype type_ = MPI_DATATYPE_NULL;
-};
-
 void send(const MeshPart& part, int rank, MPI_Comm comm) {
-  const RecordType cell(sizeof(FileCell)), node(sizeof(PetscSFNode));
+  const MpiType cell(sizeof(FileCell), MPI_BYTE), node(sizeof(PetscSFNode), MPI_BYTE);
   const Index sizes[3] = {static_cast<Index>(part.cells.size()), part.n_owned, part.n_gradient};
   MPI_Send(sizes, 3, MPIU_INT, rank, 0, comm);
   MPI_Send(part.cells.data(), static_cast<int>(sizes[0]), cell, rank, 0, comm);
@@ -137,7 +122,7 @@ void send(const MeshPart& part, int rank, MPI_Comm comm) {
 }
 
 MeshPart receive(MPI_Comm comm) {
-  const RecordType cell(sizeof(FileCell)), node(sizeof(PetscSFNode));
+  const MpiType cell(sizeof(FileCell), MPI_BYTE), node(sizeof(PetscSFNode), MPI_BYTE);
   Index sizes[3];
   MPI_Recv(sizes, 3, MPIU_INT, 0, 0, comm, MPI_STATUS_IGNORE);
   MeshPart part{std::vector<FileCell>(sizes[0]), std::vector<PetscSFNode>(sizes[0]), sizes[1], sizes[2]};

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/collective.h"
+#include "base/mpi_type.h"
 #include "mesh/sliding/check_zones.h"
 #include "mesh/sliding/curve_mesh.h"
 
@@ -79,15 +81,22 @@ SlidingInterface::SlidingInterface(const RevolutionSurface& surface, std::array<
 }
 
 std::vector<Piece> SlidingInterface::pieces(double angle) const {
+  const long n = static_cast<long>(faces(0).size()), ranks = size_of(comm_);
+  const std::vector<Piece> share =
+      cut(angle, static_cast<int>(rank_ * n / ranks), static_cast<int>((rank_ + 1) * n / ranks));
+  return ranks > 1 ? hand_out(share) : share;
+}
+
+std::vector<Piece> SlidingInterface::cut(double angle, int begin, int end) const {
   constexpr double least = 1e-14;  // of the smaller face: below is round-off of faces that only touch
   angle = std::remainder(angle, 2 * M_PI);
   const double cosine = std::cos(angle), sine = std::sin(angle);
   const auto& [inner, outer] = sides_;
   std::vector<Piece> pieces;
-  pieces.reserve(3 * (inner.faces.size() + outer.faces.size()) / 2);
+  pieces.reserve(3 * static_cast<std::size_t>(end - begin));
   std::vector<int> near;
   Polygon common;
-  for (std::size_t i = 0; i < inner.faces.size(); ++i) {
+  for (int i = begin; i < end; ++i) {
     const InterfaceFace& face = inner.faces[i];
     const ChartFace& placed = inner.charts[i];
     const Chart chart{&surface_, placed.part};
@@ -98,12 +107,12 @@ std::vector<Piece> SlidingInterface::pieces(double angle) const {
     outer_boxes_.find(box_of(surface_, corners, face.n), near);
     for (const int j : near) {
       const InterfaceFace& other = outer.faces[j];
-      if (outer.charts[j].part != placed.part || (face.rank != rank_ && other.rank != rank_)) continue;
+      if (outer.charts[j].part != placed.part) continue;
       intersect(chart, polygon, box, outer.charts[j], outer_in_chart_[j], common);
       const PatchIntegrals patch = integrate(chart, common, placed.rim && outer.charts[j].rim);
       if (!(patch.size > least * std::min(face.size, other.size))) continue;
       Piece piece;
-      piece.inner = static_cast<int>(i);
+      piece.inner = i;
       piece.outer = j;
       piece.area = surface_.axes() * patch.area;
       piece.moment = surface_.axes() * patch.moment + surface_.origin().cross(piece.area);
@@ -114,6 +123,30 @@ std::vector<Piece> SlidingInterface::pieces(double angle) const {
     }
   }
   return pieces;
+}
+
+std::vector<Piece> SlidingInterface::hand_out(std::span<const Piece> share) const {
+  std::vector<std::vector<Piece>> to(size_of(comm_));
+  for (const Piece& piece : share) {
+    const int inner = faces(0)[piece.inner].rank, outer = faces(1)[piece.outer].rank;
+    to[inner].push_back(piece);
+    if (outer != inner) to[outer].push_back(piece);
+  }
+  std::vector<Piece> sent;
+  std::vector<int> n_sent, n_received(to.size()), send_at, receive_at;
+  for (const auto& pieces : to) {
+    send_at.push_back(static_cast<int>(sent.size()));
+    n_sent.push_back(static_cast<int>(pieces.size()));
+    sent.insert(sent.end(), pieces.begin(), pieces.end());
+  }
+  MPI_Alltoall(n_sent.data(), 1, MPI_INT, n_received.data(), 1, MPI_INT, comm_);
+  int n = 0;
+  for (const int count : n_received) receive_at.push_back(std::exchange(n, n + count));
+  std::vector<Piece> received(n);
+  const MpiType type(sizeof(Piece), MPI_BYTE);
+  MPI_Alltoallv(sent.data(), n_sent.data(), send_at.data(), type, received.data(), n_received.data(), receive_at.data(),
+                type, comm_);
+  return received;  // by rank, and so in the order of the faces that ranks cut
 }
 
 double SlidingInterface::audit(double angle, std::span<const Piece> pieces) const {

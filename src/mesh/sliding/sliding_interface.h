@@ -35,8 +35,9 @@ class SlidingInterface {
   Vec3 axis() const { return surface_.axes().col(2); }  ///< in the parent's frame
 
   /// The pieces with at least one cell on this rank when the inner zone is turned by the angle about the axis (right-handed,
-  /// radians, relative to the parent), ordered by inner, then outer face. The sum over a face's pieces is the face, and two
-  /// ranks get the same bits for a piece they share. The same normal velocity of the mesh on both sides: n·(axis × r) = 0.
+  /// radians, relative to the parent), ordered by inner, then outer face. The sum over a face's pieces is the face. Each rank
+  /// cuts an equal share of the inner faces, whosever they are. The same normal velocity of the mesh on both sides:
+  /// n·(axis × r) = 0. Collective.
   std::vector<Piece> pieces(double angle) const;
 
   /// Collective: the largest |Σ pieces − face| over both sides, in area relative to the face's size, and in moment to size
@@ -44,6 +45,11 @@ class SlidingInterface {
   double audit(double angle, std::span<const Piece> pieces) const;
 
  private:
+  /// The pieces of the inner faces [begin, end).
+  std::vector<Piece> cut(double angle, int begin, int end) const;
+  /// Sends each piece to the ranks of its cells. Collective.
+  std::vector<Piece> hand_out(std::span<const Piece> share) const;
+
   RevolutionSurface surface_;
   std::array<InterfaceSide, 2> sides_;
   BoxTree outer_boxes_;
