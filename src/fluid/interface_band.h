@@ -1,5 +1,5 @@
 // What crosses sliding interfaces, for preconditioners whose matrix does not hold it: guessed from factors of the cells near
-// an interface alone.
+// an interface alone: as near as this rank's own faces lead.
 #pragma once
 #include <vector>
 

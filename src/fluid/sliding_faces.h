@@ -35,7 +35,7 @@ class SlidingFaces {
   /// Collective; SolverFailure when the pieces do not sum to the faces (audit).
   const std::vector<std::vector<mesh::FaceBlock>>& blocks(const Frames& frames);
 
-  /// Between begin and end the rows of other ranks' cells are filled, and no rows may change. Collective.
+  /// Fills the rows of other ranks' cells; between begin and end none of an interface's rows may change. Collective.
   void begin_exchange(void* rows, MPI_Datatype row) const;
   void end_exchange(void* rows, MPI_Datatype row) const;
 

@@ -82,9 +82,9 @@ SlidingInterface::SlidingInterface(const RevolutionSurface& surface, std::array<
 
 std::vector<Piece> SlidingInterface::pieces(double angle) const {
   const long n = static_cast<long>(faces(0).size()), ranks = size_of(comm_);
-  const std::vector<Piece> share =
-      cut(angle, static_cast<int>(rank_ * n / ranks), static_cast<int>((rank_ + 1) * n / ranks));
-  return ranks > 1 ? hand_out(share) : share;
+  std::vector<Piece> share = cut(angle, static_cast<int>(rank_ * n / ranks), static_cast<int>((rank_ + 1) * n / ranks));
+  if (ranks > 1) share = hand_out(share);
+  return share;
 }
 
 std::vector<Piece> SlidingInterface::cut(double angle, int begin, int end) const {
@@ -93,7 +93,7 @@ std::vector<Piece> SlidingInterface::cut(double angle, int begin, int end) const
   const double cosine = std::cos(angle), sine = std::sin(angle);
   const auto& [inner, outer] = sides_;
   std::vector<Piece> pieces;
-  pieces.reserve(3 * static_cast<std::size_t>(end - begin));
+  pieces.reserve(6 * static_cast<std::size_t>(end - begin));
   std::vector<int> near;
   Polygon common;
   for (int i = begin; i < end; ++i) {
