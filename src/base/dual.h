@@ -78,6 +78,9 @@ Dual<T> power(const Dual<T>& a, double exponent) {
   return {value, exponent * value / a.v * a.d};
 }
 
+inline Dual<Register> part(const Dual<Pack>& a, int i) { return {part(a.v, i), part(a.d, i)}; }
+inline void set_part(Dual<Pack>& a, int i, const Dual<Register>& r) { set_part(a.v, i, r.v), set_part(a.d, i, r.d); }
+
 // Shared by all scalar types of the kernels.
 template <class T>
 T maximum(const T& a, const T& b) {

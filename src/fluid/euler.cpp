@@ -95,13 +95,13 @@ void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination, 
   petsc(VecGetArrayWrite(out, &to));
   petsc(VecGetArrayRead(x, &from));
   if (combination.known) petsc(VecGetArrayRead(combination.known, &known));
-  Pack::Vector axes[3] = {};  // columns of the zone's matrix, where the momentum is
-  const Pack::Vector scalars = {1, 0, 0, 0, 1};
+  Pack axes[3] = {0.0, 0.0, 0.0};  // columns of the zone's matrix, where the momentum is
+  alignas(64) constexpr double scalars[8] = {1, 0, 0, 0, 1};
   const auto combine = [&](mesh::Index c, auto columns) {
-    Pack::Vector sum = combination.rate * Pack::load(rates_[c].v).v;
-    if (!turn.none()) sum = scalars * sum + axes[0] * sum[1] + axes[1] * sum[2] + axes[2] * sum[3];
+    Pack sum = combination.rate * Pack::load(rates_[c].v);
+    if (!turn.none()) sum = Pack::load(scalars) * sum + axes[0] * sum[1] + axes[1] * sum[2] + axes[2] * sum[3];
     Pack(0.0).store(rates_[c].v);
-    Pack::Vector term = {};
+    Pack term(0.0);
     std::memcpy(&term, from + kVariables * c, columns * sizeof(double));
     sum += combination.mass * mesh_.volume[c] * term;
     if (known) {
@@ -114,10 +114,11 @@ void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination, 
   const mesh::Index safe = std::max<mesh::Index>(0, mesh_.n_owned - 1);
   for (size_t z = 0; z < zone_cells_.size(); ++z) {
     for (int k = 0; k < 3 && !turn.none(); ++k)
-      for (int i = 0; i < 3; ++i) axes[k][1 + i] = turn.back(z)(i, k);
+      for (int i = 0; i < 3; ++i) axes[k].set(1 + i, turn.back(z)(i, k));
     const Range& zone = zone_cells_[z];
     for (mesh::Index c = zone.begin; c < std::min(zone.end, safe); ++c) combine(c, std::integral_constant<int, 8>());
-    for (mesh::Index c = std::max(zone.begin, safe); c < zone.end; ++c) combine(c, std::integral_constant<int, kVariables>());
+    for (mesh::Index c = std::max(zone.begin, safe); c < zone.end; ++c)
+      combine(c, std::integral_constant<int, kVariables>());
   }
   std::fill(rates_.begin() + mesh_.n_owned, rates_.end(), Row{});
   if (combination.known) petsc(VecRestoreArrayRead(combination.known, &known));

@@ -12,24 +12,25 @@ using mesh::Vec3;
 namespace {
 
 /// Eight items of N numbers each, one after the other: those in the array, or a copy padded with zeros where fewer than
-/// eight or what is read after them would lie beyond the array's end.
+/// eight or what load_columns() reads after them would lie beyond the array's end.
 template <int N>
 struct Eight {
   double copy[8 * N + 8];
   const double* first;
 
   Eight(const double* data, mesh::Index left) : first(data) {
-    if (left > 8) return;
+    if (N * left >= 7 * N + 8) return;
     std::fill(std::begin(copy), std::end(copy), 0.0);
-    std::copy_n(data, N * left, copy);
+    std::copy_n(data, N * std::min<mesh::Index>(left, 8), copy);
     first = copy;
   }
 };
 
-/// Eight cells of five values each, as columns (the last three mean nothing).
-void load_columns(const double* q, Pack columns[8]) {
+/// Eight items of N numbers each as columns, of which the first N mean something.
+template <int N>
+inline void load_columns(const Eight<N>& items, Pack columns[8]) {
   Pack rows[8];
-  for (int j = 0; j < 8; ++j) rows[j] = Pack::load_unaligned(q + kVariables * j);
+  for (int j = 0; j < 8; ++j) rows[j] = Pack::load_unaligned(items.first + N * j);
   transpose(rows, columns);
 }
 
@@ -52,15 +53,10 @@ struct GridVelocity {
     for (int k = 0; k < 3; ++k) spin.col(k) = f.omega.cross(f.R.col(k));
   }
   /// At eight points.
-  void at(const double* r, Pack out[3]) const {
-    const auto a = Pack::load_unaligned(r).v, b = Pack::load_unaligned(r + 8).v, c = Pack::load_unaligned(r + 16).v;
-    const auto ab_x = __builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, 0, 0);
-    const auto ab_y = __builtin_shufflevector(a, b, 1, 4, 7, 10, 13, 0, 0, 0);
-    const auto ab_z = __builtin_shufflevector(a, b, 2, 5, 8, 11, 14, 0, 0, 0);
-    const Pack x = __builtin_shufflevector(ab_x, c, 0, 1, 2, 3, 4, 5, 10, 13);
-    const Pack y = __builtin_shufflevector(ab_y, c, 0, 1, 2, 3, 4, 8, 11, 14);
-    const Pack z = __builtin_shufflevector(ab_z, c, 0, 1, 2, 3, 4, 9, 12, 15);
-    for (int i = 0; i < 3; ++i) out[i] = V[i] + spin(i, 0) * x + spin(i, 1) * y + spin(i, 2) * z;
+  void at(const Eight<3>& r, Pack out[3]) const {
+    Pack x[8];
+    load_columns(r, x);
+    for (int i = 0; i < 3; ++i) out[i] = V[i] + spin(i, 0) * x[0] + spin(i, 1) * x[1] + spin(i, 2) * x[2];
   }
 };
 
@@ -81,7 +77,8 @@ void store_rows(const Pack columns[8], int count, Row* out) {
 }  // namespace
 
 /// Fills own rows from the conserved state, or from its derivative along *dq; `turn` leads from the axes of dq.
-void EulerOperator::fill_cells(Vec q, const Frames& frames, const Vec* dq, std::vector<Row>& rows, const ZoneTurn& turn) {
+void EulerOperator::fill_cells(Vec q, const Frames& frames, const Vec* dq, std::vector<Row>& rows,
+                               const ZoneTurn& turn) {
   const double *values = nullptr, *derivatives = nullptr;
   petsc(VecGetArrayRead(q, &values));
   if (dq) petsc(VecGetArrayRead(*dq, &derivatives));
@@ -92,13 +89,13 @@ void EulerOperator::fill_cells(Vec q, const Frames& frames, const Vec* dq, std::
       const mesh::Index left = mesh_.n_owned - c;
       const int count = std::min<int>(8, zone_cells_[z].end - c);
       Pack grid[3], columns[8], out[8];
-      grid_velocity.at(Eight<3>(mesh_.centroid[c].data(), left).first, grid);
-      load_columns(Eight<5>(values + 5 * c, left).first, columns);
+      grid_velocity.at(Eight<3>(mesh_.centroid[c].data(), left), grid);
+      load_columns(Eight<5>(values + 5 * c, left), columns);
       if (!dq) {
         make_rows(columns, grid, use_mach, model_.gamma, out);
       } else {
         Pack along[8];
-        load_columns(Eight<5>(derivatives + 5 * c, left).first, along);
+        load_columns(Eight<5>(derivatives + 5 * c, left), along);
         if (!turn.none()) {
           const Mat3& R = turn.forth(z);
           const Pack m[3] = {along[1], along[2], along[3]};

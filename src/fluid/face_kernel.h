@@ -21,17 +21,9 @@ struct alignas(64) GradientRow {
   double v[16];
 
   double at(int direction, int variable) const { return v[5 * direction + variable]; }
-  void store(const Pack g[3]) {
-    Pack(__builtin_shufflevector(g[0].v, g[1].v, 0, 1, 2, 3, 4, 8, 9, 10)).store(v);
-    Pack(__builtin_shufflevector(g[1].v, g[2].v, 3, 4, 8, 9, 10, 11, 12, 7)).store(v + 8);
-  }
+  void store(const Pack g[3]) { store_fives(g[0], g[1], g[2], v); }
   /// The change of the variables along an arm; what is in the columns after them means nothing.
-  Pack along(const double* arm) const {
-    const auto first = Pack::load(v).v, second = Pack::load(v + 8).v;
-    const Pack y = __builtin_shufflevector(first, second, 5, 6, 7, 8, 9, 10, 11, 12);
-    const Pack z = __builtin_shufflevector(second, second, 2, 3, 4, 5, 6, 7, 0, 0);
-    return Pack(first) * arm[0] + y * arm[1] + z * arm[2];
-  }
+  Pack along(const double* arm) const { return window<0>(v) * arm[0] + window<5>(v) * arm[1] + window<10>(v) * arm[2]; }
 };
 
 enum class Reconstruction { first_order, linear, limited };
@@ -86,10 +78,7 @@ std::array<T, 2> limited_fractions(const T& slope_l, const T& slope_r, const T& 
 }
 
 /// The change of a row along an arm; the Mach number is not reconstructed.
-inline Pack change(const GradientRow& g, const double* arm) {
-  constexpr Pack::Mask variables = {-1, -1, -1, -1, -1, 0, 0, 0};
-  return select(variables, g.along(arm), Pack(0.0));
-}
+inline Pack change(const GradientRow& g, const double* arm) { return first_lanes<kVariables>(g.along(arm)); }
 
 /// States of one side of a block, as columns; T is Pack or Dual<Pack>.
 template <class T>
@@ -129,9 +118,9 @@ struct Rows<Dual<Pack>> {
 /// Extrapolation leaves density and pressure at least a tenth of the cell's own.
 template <class T>
 T least_row(const T& own) {
-  constexpr Pack::Vector share = {0.1, 0, 0, 0, 0.1, 0, 0, 0};
-  constexpr Pack::Vector offset = {0, -1e300, -1e300, -1e300, 0, -1e300, -1e300, -1e300};
-  return own * Pack(share) + Pack(offset);
+  alignas(64) static constexpr double share[8] = {0.1, 0, 0, 0, 0.1, 0, 0, 0};
+  alignas(64) static constexpr double offset[8] = {0, -1e300, -1e300, -1e300, 0, -1e300, -1e300, -1e300};
+  return own * Pack::load(share) + Pack::load(offset);
 }
 
 /// The state of cell `side` of lane i, taken to the face without a limiter.
@@ -227,6 +216,22 @@ void prefetch(const FaceInput& in, const mesh::FaceBlock* blocks, int left, cons
     }
 }
 
+/// A flux of eight faces, as many at a time as one register takes: eight at once would be more values than registers.
+template <class FluxScheme, class T>
+Flux<T> flux_of(const State<T>& l, const State<T>& r, const FaceNormal<Pack>& n, const T& mach, double gamma) {
+  const auto state = [](const State<T>& s, int i) {
+    return State{part(s.rho, i), part(s.u, i), part(s.v, i), part(s.w, i), part(s.p, i)};
+  };
+  Flux<T> all;
+  for (int i = 0; i < Pack::kParts; ++i) {
+    const FaceNormal normal{part(n.x, i), part(n.y, i), part(n.z, i), part(n.grid_speed, i)};
+    const auto f = FluxScheme::flux(state(l, i), state(r, i), normal, part(mach, i), gamma);
+    set_part(all.mass, i, f.mass), set_part(all.x, i, f.x), set_part(all.y, i, f.y), set_part(all.z, i, f.z);
+    set_part(all.energy, i, f.energy);
+  }
+  return all;
+}
+
 inline void add(Row& row, const Pack& x) { (Pack::load(row.v) + x).store(row.v); }
 
 /// Interior faces: rates[cell] += what leaves. T = Dual<Pack> gives the derivative along d_cells.
@@ -239,7 +244,7 @@ template <class FluxScheme, Reconstruction R, class T>
     const auto [l, r] = face_sides<R, T>(in, b);
     const T mach = face_mach(l.mach_squared, r.mach_squared);
     Pack rows[8];
-    flux_rows(FluxScheme::flux(l.state, r.state, face.normal, mach, in.gamma), face.area, rows);
+    flux_rows(flux_of<FluxScheme>(l.state, r.state, face.normal, mach, in.gamma), face.area, rows);
     for (int i = 0; i < b.count; ++i) {
       add(rates[b.cell[0][i]], rows[i]);
       add(rates[b.cell[1][i]], -rows[i]);

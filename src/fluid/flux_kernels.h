@@ -10,9 +10,9 @@ using BlockPack = std::array<Pack, kVariables * kVariables>;
 struct FluxKernels {
   using Sum = void (*)(const FaceInput&, const mesh::FaceBlock* blocks, int count, Row* rates);
   const char* name;
-  bool needs_mach;       ///< uses the relative Mach number even without the low-Mach option
-  Sum residual[3];       ///< by Reconstruction
-  Sum derivative[3];     ///< along FaceInput::d_cells
+  bool needs_mach;    ///< uses the relative Mach number even without the low-Mach option
+  Sum residual[3];    ///< by Reconstruction
+  Sum derivative[3];  ///< along FaceInput::d_cells
   /// d(first-order flux)/d(conserved state) of either side, times the area.
   void (*jacobian)(const FaceInput&, const mesh::FaceBlock&, BlockPack sides[2]);
 };
@@ -48,10 +48,10 @@ template <class FluxScheme>
   const Dual<Pack> mach = {face_mach(l.mach_squared, r.mach_squared), Pack(0.0)};  // frozen
   const auto fixed_l = constant_state(l.state), fixed_r = constant_state(r.state);
   for (int k = 0; k < kVariables; ++k) {
-    store_column(FluxScheme::flux(seeded_state(l.state, k, in.gamma), fixed_r, face.normal, mach, in.gamma), face.area,
-                 k, sides[0]);
-    store_column(FluxScheme::flux(fixed_l, seeded_state(r.state, k, in.gamma), face.normal, mach, in.gamma), face.area,
-                 k, sides[1]);
+    store_column(flux_of<FluxScheme>(seeded_state(l.state, k, in.gamma), fixed_r, face.normal, mach, in.gamma),
+                 face.area, k, sides[0]);
+    store_column(flux_of<FluxScheme>(fixed_l, seeded_state(r.state, k, in.gamma), face.normal, mach, in.gamma),
+                 face.area, k, sides[1]);
   }
   const Pack damping = 0.5 * in.damping * face.area;
   for (int k = 0; k < kVariables; ++k) {

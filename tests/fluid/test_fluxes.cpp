@@ -136,8 +136,8 @@ TEST_CASE("eight lanes give what one gives", "[flux]") {
   State<Pack> pl, pr;
   for (int i = 0; i < 8; ++i) {
     l[i] = random_state(random, 0.6), r[i] = random_state(random, 0.6);
-    pl.rho.v[i] = l[i].rho, pl.u.v[i] = l[i].u, pl.v.v[i] = l[i].v, pl.w.v[i] = l[i].w, pl.p.v[i] = l[i].p;
-    pr.rho.v[i] = r[i].rho, pr.u.v[i] = r[i].u, pr.v.v[i] = r[i].v, pr.w.v[i] = r[i].w, pr.p.v[i] = r[i].p;
+    pl.rho.set(i, l[i].rho), pl.u.set(i, l[i].u), pl.v.set(i, l[i].v), pl.w.set(i, l[i].w), pl.p.set(i, l[i].p);
+    pr.rho.set(i, r[i].rho), pr.u.set(i, r[i].u), pr.v.set(i, r[i].v), pr.w.set(i, r[i].w), pr.p.set(i, r[i].p);
   }
   const FaceNormal<Pack> n{0.6, 0.8, 0.0, 0.1};
   const Flux<Pack> f = Roe::flux(pl, pr, n, Pack(0.5), kGamma);
@@ -145,7 +145,7 @@ TEST_CASE("eight lanes give what one gives", "[flux]") {
     require_close({f.mass[i], f.x[i], f.y[i], f.z[i], f.energy[i]}, Roe::flux(l[i], r[i], N{0.6, 0.8, 0, 0.1}, 0.5, kGamma));
   Pack rows[8], back[8];
   for (int i = 0; i < 8; ++i)
-    for (int j = 0; j < 8; ++j) rows[i].v[j] = 8 * i + j;
+    for (int j = 0; j < 8; ++j) rows[i].set(j, 8 * i + j);
   transpose(rows, back);
   for (int i = 0; i < 8; ++i)
     for (int j = 0; j < 8; ++j) CHECK(back[i][j] == 8 * j + i);
