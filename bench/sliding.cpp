@@ -55,7 +55,7 @@ class SlidingBench {
     size_t n_faces = 0;
     for (const auto& interface : zoned_.interfaces) n_faces += interface.faces(0).size() + interface.faces(1).size();
     std::vector<double> geometry;
-    for (int i = 1; i <= 15; ++i) geometry.push_back(seconds([&] { faces.blocks(tree_.frames(i * step_)); }));
+    for (int i = 1; i <= 15; ++i) geometry.push_back(seconds([&] { faces.faces(tree_.frames(i * step_)); }));
     const Frames start = tree_.frames(0);
     const VecHandle out = with_.make_vector();
     with_.linearize(q_, start);

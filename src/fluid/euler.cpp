@@ -5,6 +5,8 @@
 
 #include "base/errors.h"
 #include "base/memory.h"
+// needs PETSc's types before it
+#include <petsc/private/petscimpl.h>
 
 namespace windhover::fluid {
 
@@ -35,6 +37,11 @@ std::vector<std::optional<BoundaryKind>> resolve_patches(const mesh::Mesh& mesh,
 }
 
 }  // namespace
+
+VecContent::VecContent(Vec v) {
+  petsc(PetscObjectGetId(reinterpret_cast<PetscObject>(v), &id));
+  petsc(PetscObjectStateGet(reinterpret_cast<PetscObject>(v), &state));
+}
 
 EulerOperator::EulerOperator(const mesh::Mesh& mesh, FlowModel model, std::vector<mesh::SlidingInterface> interfaces)
     : mesh_(mesh),
@@ -88,17 +95,21 @@ FaceInput EulerOperator::face_input(const FrameState& frame) const {
   return in;
 }
 
-/// Leaves the rates at zero for the next sum, while they are in the cache. `turn` leads from the axes of x and out.
-void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination, const ZoneTurn& turn) {
-  double* to = nullptr;
+/// Leaves the rates at zero for the next sum, while they are in the cache. `turn` leads from the axes of x and out. `rate`:
+/// gets R alone.
+void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination, const ZoneTurn& turn, Vec rate) {
+  double *to = nullptr, *alone = nullptr;
   const double *from = nullptr, *known = nullptr;
   petsc(VecGetArrayWrite(out, &to));
   petsc(VecGetArrayRead(x, &from));
   if (combination.known) petsc(VecGetArrayRead(combination.known, &known));
+  if (rate) petsc(VecGetArrayWrite(rate, &alone));
   Pack axes[3] = {0.0, 0.0, 0.0};  // columns of the zone's matrix, where the momentum is
   alignas(64) constexpr double scalars[8] = {1, 0, 0, 0, 1};
   const auto combine = [&](mesh::Index c, auto columns) {
-    Pack sum = combination.rate * Pack::load(rates_[c].v);
+    const Pack own = Pack::load(rates_[c].v);
+    if (alone) std::memcpy(alone + kVariables * c, &own, columns * sizeof(double));
+    Pack sum = combination.rate * own;
     if (!turn.none()) sum = Pack::load(scalars) * sum + axes[0] * sum[1] + axes[1] * sum[2] + axes[2] * sum[3];
     Pack(0.0).store(rates_[c].v);
     Pack term(0.0);
@@ -121,19 +132,31 @@ void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination, 
       combine(c, std::integral_constant<int, kVariables>());
   }
   std::fill(rates_.begin() + mesh_.n_owned, rates_.end(), Row{});
+  if (rate) petsc(VecRestoreArrayWrite(rate, &alone));
   if (combination.known) petsc(VecRestoreArrayRead(combination.known, &known));
   petsc(VecRestoreArrayRead(x, &from));
   petsc(VecRestoreArrayWrite(out, &to));
 }
 
-/// Rows and gradients of q, not of other ranks' cells at interfaces.
+bool EulerOperator::holds(Vec q, const Frames& frames) const {
+  return held_.content == VecContent(q) && held_.frames == frames;
+}
+
+void EulerOperator::hold(Vec q, const Frames& frames) {
+  held_.content = VecContent(q);
+  held_.frames = frames;
+}
+
+/// Rows and gradients of q; not of other ranks' cells at interfaces, unless they are held.
 void EulerOperator::prepare(Vec q, const Frames& frames) {
-  fill_cells(q, frames, nullptr, cells_);
+  if (holds(q, frames)) return;
+  fill_cells(q, frames);
   exchange_halo(cells_);
   update_gradients(cells_, gradients_);
 }
 
-/// From own rows of the cells. The zones' own faces come while other ranks' rows at interfaces are under way.
+/// From own rows of the cells. The zones' own faces come while other ranks' rows at interfaces are under way, the
+/// boundaries while fluxes through interfaces are, which one of the two ranks of a face makes.
 void EulerOperator::sum_rates(std::vector<Row>& cells, std::vector<GradientRow>& gradients, const Frames& frames,
                               FluxKernels::Sum interior, BoundaryKernels::Sum boundary) {
   exchange_halo(cells);
@@ -142,28 +165,41 @@ void EulerOperator::sum_rates(std::vector<Row>& cells, std::vector<GradientRow>&
   const auto between_cells = [&](const FaceInput& in, const mesh::FaceBlock* blocks, int n) {
     interior(in, blocks, n, rates_.data());
   };
-  for_each_group(frames, between_cells,
-                 [&](const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int n, int) {
-                   boundary(in, kind, blocks, n, rates_.data());
-                 });
+  for_each_zone(frames, between_cells);
   end_interfaces(cells, gradients);
-  for_each_interface(frames, between_cells);
+  for_each_interface(frames, between_cells, true);
+  sliding_.begin_sum(rates_.data(), row_type_);
+  for_each_patch(frames, [&](const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int n, int) {
+    boundary(in, kind, blocks, n, rates_.data());
+  });
+  sliding_.end_sum(rates_.data(), row_type_);
+}
+
+void EulerOperator::keep_rates() {
+  if (!rate_) rate_ = make_vector();
 }
 
 void EulerOperator::residual(Vec q, const Frames& frames, Vec out, const Combination& combination) {
-  fill_cells(q, frames, nullptr, cells_);
+  const bool alone = combination.mass == 0 && combination.rate == 1 && !combination.known;
+  if (alone && held_.rate && holds(q, frames)) {
+    petsc(VecCopy(rate_, out));
+    return;
+  }
+  fill_cells(q, frames);
   const int r = static_cast<int>(model_.reconstruction);
   sum_rates(cells_, gradients_, frames, model_.flux->residual[r], kBoundaryKernels.residual[r]);
-  store_rates(q, out, combination);
+  store_rates(q, out, combination, {}, rate_);
+  hold(q, frames);
+  held_.rate = rate_;
 }
 
 void EulerOperator::linearize(Vec q, const Frames& frames) {
-  if (!base_) base_ = make_vector();
-  petsc(VecCopy(q, base_));
-  prepare(q, frames);
-  begin_interfaces(cells_, gradients_);
-  end_interfaces(cells_, gradients_);
-  frames_ = frames;
+  if (!holds(q, frames)) {
+    prepare(q, frames);
+    begin_interfaces(cells_, gradients_);
+    end_interfaces(cells_, gradients_);
+    hold(q, frames);
+  }
   if (d_cells_.empty()) {
     d_cells_.resize(cells_.size());
     d_gradients_.resize(gradients_.size());
@@ -173,9 +209,9 @@ void EulerOperator::linearize(Vec q, const Frames& frames) {
 }
 
 void EulerOperator::derivative(Vec dq, Vec out, const Combination& combination, const ZoneTurn& turn) {
-  fill_cells(base_, frames_, &dq, d_cells_, turn);
+  fill_derivatives(dq, turn);
   const int r = static_cast<int>(model_.reconstruction);
-  sum_rates(d_cells_, d_gradients_, frames_, model_.flux->derivative[r], kBoundaryKernels.derivative[r]);
+  sum_rates(d_cells_, d_gradients_, held_.frames, model_.flux->derivative[r], kBoundaryKernels.derivative[r]);
   store_rates(dq, out, combination, turn);
 }
 

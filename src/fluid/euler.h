@@ -58,6 +58,16 @@ struct Combination {
   Vec known = nullptr;
 };
 
+/// Which vector, and which of the contents it has had; the same on all ranks.
+struct VecContent {
+  PetscObjectId id = 0;  ///< 0: none
+  PetscObjectState state = 0;
+
+  VecContent() = default;
+  explicit VecContent(Vec v);
+  bool operator==(const VecContent&) const = default;
+};
+
 class EulerOperator {
  public:
   /// `interfaces`: where zones of the mesh slide on each other.
@@ -71,8 +81,10 @@ class EulerOperator {
 
   /// out = mass V q + rate R(q) + known, with R = Σ_faces [F(q)·A − q v_g·A] per cell (what leaves, not divided by V).
   void residual(Vec q, const Frames& frames, Vec out, const Combination& combination = {});
+  /// From now on residual() keeps R: asked for R alone of the same q at the same frames, it is at hand.
+  void keep_rates();
 
-  /// Fixes the state for derivative().
+  /// Fixes the state for derivative(). At no cost where residual() was the last to be asked, of the same q and frames.
   void linearize(Vec q, const Frames& frames);
   /// out = (mass V + rate dR/dq) dq, exact (forward mode); dq and out in the axes from which `turn` leads to the state's.
   void derivative(Vec dq, Vec out, const Combination& combination = {}, const ZoneTurn& turn = {});
@@ -84,7 +96,8 @@ class EulerOperator {
 
   /// blocks: scale · d(first-order residual)/dq between owned cells and those of other zones, one for each piece of an
   /// interface, in the axes from which `turn` leads to those of `frames`.
-  void interface_jacobian(Vec q, const Frames& frames, double scale, const ZoneTurn& turn, std::vector<InterfaceBlock>& blocks);
+  void interface_jacobian(Vec q, const Frames& frames, double scale, const ZoneTurn& turn,
+                          std::vector<InterfaceBlock>& blocks);
   const SlidingFaces& sliding_faces() const { return sliding_; }
 
   /// Sums over the whole domain of volume times mass, momentum and energy. Collective.
@@ -107,38 +120,51 @@ class EulerOperator {
   double courant_number(Vec q, const Frames& frames, double dt);
 
  private:
-  void fill_cells(Vec q, const Frames& frames, const Vec* dq, std::vector<Row>& rows, const ZoneTurn& turn = {});
+  template <class T>
+  T mach_column(const State<T>& s, const Pack grid[3]) const;
+  void fill_cells(Vec q, const Frames& frames);
+  void fill_derivatives(Vec dq, const ZoneTurn& turn);
+  bool holds(Vec q, const Frames& frames) const;
+  void hold(Vec q, const Frames& frames);
   void load_cells(Vec q, const Frames& frames);
   void exchange_halo(std::vector<Row>& rows) const;
   void update_gradients(const std::vector<Row>& rows, std::vector<GradientRow>& gradients) const;
   void begin_interfaces(std::vector<Row>& rows, std::vector<GradientRow>& gradients) const;
   void end_interfaces(std::vector<Row>& rows, std::vector<GradientRow>& gradients) const;
   FaceInput face_input(const mesh::FrameState& frame) const;
-  /// Calls interior(input, blocks, count) for each zone and boundary(input, kind, blocks, count, patch) for each patch.
-  template <class Interior, class Boundary>
-  void for_each_group(const Frames& frames, Interior interior, Boundary boundary) const {
+  /// Calls visit(input, blocks, count) for the faces inside each zone.
+  template <class Visit>
+  void for_each_zone(const Frames& frames, Visit visit) const {
     for (size_t z = 0; z < frames.size(); ++z) {
       const mesh::Range& range = mesh_.zones[z].faces;
-      interior(face_input(frames[z]), mesh_.faces.data() + range.begin, static_cast<int>(range.size()));
+      visit(face_input(frames[z]), mesh_.faces.data() + range.begin, static_cast<int>(range.size()));
     }
+  }
+  /// Calls visit(input, kind, blocks, count, patch) for the faces of each patch.
+  template <class Visit>
+  void for_each_patch(const Frames& frames, Visit visit) const {
     for (size_t p = 0; p < mesh_.patches.size(); ++p) {
       const mesh::Patch& patch = mesh_.patches[p];
       if (patch_kind_[p])
-        boundary(face_input(frames[patch.zone]), *patch_kind_[p], patch.blocks.data(),
-                 static_cast<int>(patch.blocks.size()), static_cast<int>(p));
+        visit(face_input(frames[patch.zone]), *patch_kind_[p], patch.blocks.data(),
+              static_cast<int>(patch.blocks.size()), static_cast<int>(p));
     }
   }
-  /// Calls visit(input, blocks, count) for the faces of each sliding interface.
+  /// Calls visit(input, blocks, count) for the faces of each sliding interface that have a cell here, or `ours`: for those
+  /// whose flux this rank makes.
   template <class Visit>
-  void for_each_interface(const Frames& frames, Visit visit) {
+  void for_each_interface(const Frames& frames, Visit visit, bool ours = false) {
     if (sliding_.empty()) return;
-    const auto& blocks = sliding_.blocks(frames);
-    for (size_t i = 0; i < blocks.size(); ++i)
-      visit(face_input(frames[sliding_.frame_zone(i)]), blocks[i].data(), static_cast<int>(blocks[i].size()));
+    const auto& interfaces = sliding_.faces(frames);
+    for (size_t i = 0; i < interfaces.size(); ++i) {
+      const InterfaceFaces& faces = interfaces[i];
+      visit(face_input(frames[sliding_.frame_zone(i)]), faces.blocks.data(),
+            ours ? faces.n_ours : static_cast<int>(faces.blocks.size()));
+    }
   }
   void sum_rates(std::vector<Row>& cells, std::vector<GradientRow>& gradients, const Frames& frames,
                  FluxKernels::Sum interior, BoundaryKernels::Sum boundary);
-  void store_rates(Vec x, Vec out, const Combination& combination, const ZoneTurn& turn = {});
+  void store_rates(Vec x, Vec out, const Combination& combination, const ZoneTurn& turn = {}, Vec rate = nullptr);
   void prepare(Vec q, const Frames& frames);
 
   const mesh::Mesh& mesh_;
@@ -152,8 +178,13 @@ class EulerOperator {
   std::vector<Row> cells_, d_cells_;
   std::vector<Row> rates_;  ///< zero but between sum_rates() and store_rates()
   std::vector<GradientRow> gradients_, d_gradients_;
-  Frames frames_;   ///< of the state in cells_
-  VecHandle base_;  ///< conserved state linearised about
+  /// The state whose rows and gradients are in cells_ and gradients_, those of other ranks and at interfaces as well.
+  struct {
+    VecContent content;
+    Frames frames;
+    bool rate = false;  ///< rate_ is of it
+  } held_;
+  VecHandle rate_;
 };
 
 }  // namespace windhover::fluid

@@ -42,29 +42,27 @@ void EulerOperator::first_order_jacobian(Vec q, const Frames& frames, double sca
       }
     }
   });
-  for_each_group(
-      frames,
-      [&](FaceInput in, const FaceBlock* blocks, int n) {
-        BlockPack sides[2];
-        in.damping = damping;
-        for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
-          const size_t first = size_t(b - mesh_.faces.data()) * mesh::kLanes;
-          for (int i = 0; i < b->count; ++i) jacobian.prefetch_face(first + i);
-          model_.flux->jacobian(in, *b, sides);
-          for (int s = 0; s < 2; ++s) {
-            const LaneBlocks lanes(sides[s]);
-            for (int i = 0; i < b->count; ++i) jacobian.add_face(first + i, s, lanes.block[i], scale);
-          }
-        }
-      },
-      [&](const FaceInput& in, BoundaryKind kind, const FaceBlock* blocks, int n, int) {
-        BlockPack side;
-        for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
-          kBoundaryKernels.jacobian(in, kind, *b, side);
-          const LaneBlocks lanes(side);
-          for (int i = 0; i < b->count; ++i) jacobian.add_diagonal(b->cell[0][i], lanes.block[i], scale);
-        }
-      });
+  for_each_zone(frames, [&](FaceInput in, const FaceBlock* blocks, int n) {
+    BlockPack sides[2];
+    in.damping = damping;
+    for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
+      const size_t first = size_t(b - mesh_.faces.data()) * mesh::kLanes;
+      for (int i = 0; i < b->count; ++i) jacobian.prefetch_face(first + i);
+      model_.flux->jacobian(in, *b, sides);
+      for (int s = 0; s < 2; ++s) {
+        const LaneBlocks lanes(sides[s]);
+        for (int i = 0; i < b->count; ++i) jacobian.add_face(first + i, s, lanes.block[i], scale);
+      }
+    }
+  });
+  for_each_patch(frames, [&](const FaceInput& in, BoundaryKind kind, const FaceBlock* blocks, int n, int) {
+    BlockPack side;
+    for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
+      kBoundaryKernels.jacobian(in, kind, *b, side);
+      const LaneBlocks lanes(side);
+      for (int i = 0; i < b->count; ++i) jacobian.add_diagonal(b->cell[0][i], lanes.block[i], scale);
+    }
+  });
   for (Index c = 0; c < mesh_.n_owned; ++c) jacobian.add_identity(c, mass_scale * mesh_.volume[c]);
   jacobian.finish();
 }
@@ -74,7 +72,7 @@ void EulerOperator::interface_jacobian(Vec q, const Frames& frames, double scale
   typedef Eigen::Matrix<double, kVariables, kVariables> Block;
   load_cells(q, frames);
   result.clear();
-  const auto& interfaces = sliding_.blocks(frames);
+  const auto& interfaces = sliding_.faces(frames);
   for (size_t i = 0; i < interfaces.size(); ++i) {
     const FaceInput in = face_input(frames[sliding_.frame_zone(i)]);
     Block back[2] = {Block::Identity(), Block::Identity()}, forth[2] = {Block::Identity(), Block::Identity()};
@@ -83,7 +81,7 @@ void EulerOperator::interface_jacobian(Vec q, const Frames& frames, double scale
       forth[s].block<3, 3>(1, 1) = turn.forth(sliding_.zones(i)[s]);
     }
     BlockPack sides[2];
-    for (const FaceBlock& b : interfaces[i]) {
+    for (const FaceBlock& b : interfaces[i].blocks) {
       model_.flux->jacobian(in, b, sides);
       for (int column = 0; column < 2; ++column) {
         const int row = 1 - column;

@@ -43,24 +43,22 @@ std::vector<PatchFlux> EulerOperator::patch_fluxes(Vec q, const Frames& frames) 
   prepare(q, frames);
   const int r = static_cast<int>(model_.reconstruction);
   std::vector<PatchFlux> sums(mesh_.patches.size());
-  for_each_group(
-      frames, [](const FaceInput&, const FaceBlock*, int) {},
-      [&](const FaceInput& in, BoundaryKind kind, const FaceBlock* blocks, int n, int p) {
-        const mesh::FrameState& frame = frames[mesh_.patches[p].zone];
-        PatchFlux& sum = sums[p];
-        for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
-          const State<Pack> states = kBoundaryKernels.state[r](in, kind, *b);
-          const FaceGeometry face = face_geometry(in, *b);
-          const Flux<Pack> flux = face.area * physical_flux(states, face.normal, in.gamma);
-          for (int i = 0; i < b->count; ++i) {
-            sum.flux = sum.flux + Flux<double>{flux.mass[i], flux.x[i], flux.y[i], flux.z[i], flux.energy[i]};
-            const double gauge = states.p[i] - model_.far.p;
-            const Vec3 force = gauge * (frame.R * lane(b->area, i));
-            sum.force += force;
-            sum.moment += gauge * (frame.R * lane(b->moment, i)) + frame.x.cross(force);
-          }
-        }
-      });
+  for_each_patch(frames, [&](const FaceInput& in, BoundaryKind kind, const FaceBlock* blocks, int n, int p) {
+    const mesh::FrameState& frame = frames[mesh_.patches[p].zone];
+    PatchFlux& sum = sums[p];
+    for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
+      const State<Pack> states = kBoundaryKernels.state[r](in, kind, *b);
+      const FaceGeometry face = face_geometry(in, *b);
+      const Flux<Pack> flux = face.area * physical_flux(states, face.normal, in.gamma);
+      for (int i = 0; i < b->count; ++i) {
+        sum.flux = sum.flux + Flux<double>{flux.mass[i], flux.x[i], flux.y[i], flux.z[i], flux.energy[i]};
+        const double gauge = states.p[i] - model_.far.p;
+        const Vec3 force = gauge * (frame.R * lane(b->area, i));
+        sum.force += force;
+        sum.moment += gauge * (frame.R * lane(b->moment, i)) + frame.x.cross(force);
+      }
+    }
+  });
   static_assert(sizeof(PatchFlux) == 11 * sizeof(double));
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(11 * sums.size()), MPI_DOUBLE, MPI_SUM, mesh_.comm);
   return sums;
@@ -103,9 +101,9 @@ std::vector<double> EulerOperator::spectral_radii(Vec q, const Frames& frames) {
   };
   const auto add_both = [&](const FaceInput& in, const FaceBlock* blocks, int n) { add(in, blocks, n, 2); };
   for_each_interface(frames, add_both);
-  for_each_group(
-      frames, add_both,
-      [&](const FaceInput& in, BoundaryKind, const FaceBlock* blocks, int n, int) { add(in, blocks, n, 1); });
+  for_each_zone(frames, add_both);
+  for_each_patch(
+      frames, [&](const FaceInput& in, BoundaryKind, const FaceBlock* blocks, int n, int) { add(in, blocks, n, 1); });
   radii.resize(mesh_.n_owned);
   return radii;
 }

@@ -37,7 +37,7 @@ inline void load_columns(const Eight<N>& items, Pack columns[8]) {
 /// M², squared speed relative to the moving cell over the speed of sound squared, led smoothly to its bound of 1:
 /// a kink there stalls Newton's method in transonic flow.
 template <class T>
-T bounded_mach_squared(const State<T>& s, const Pack grid[3], double gamma) {
+T bounded_mach_squared(const State<T>& s, const Register grid[3], double gamma) {
   using std::sqrt;
   const T u = s.u - grid[0], v = s.v - grid[1], w = s.w - grid[2];
   const T m2 = (u * u + v * v + w * w) * s.rho * reciprocal(gamma * s.p), m4 = m2 * m2;
@@ -60,15 +60,22 @@ struct GridVelocity {
   }
 };
 
-template <class T>
-inline void make_rows(const T q[5], const Pack grid[3], bool use_mach, double gamma, T rows[8]) {
-  const State<T> s = primitive(q, gamma);
-  rows[0] = s.rho, rows[1] = s.u, rows[2] = s.v, rows[3] = s.w, rows[4] = s.p;
-  rows[kMach] = use_mach ? bounded_mach_squared(s, grid, gamma) : T(1.0);
-  rows[6] = rows[7] = T(0.0);
+/// A state and its change when the conserved variables change so.
+State<Dual<Pack>> with_derivative(const State<Pack>& s, const Pack change[kVariables], double gamma) {
+  const Pack inverse = reciprocal(s.rho), &d_rho = change[0];
+  const Pack d_kinetic = s.u * change[1] + s.v * change[2] + s.w * change[3] - 0.5 * d_rho * speed_squared(s);
+  const auto speed = [&](const Pack& u, const Pack& d_momentum) {
+    return Dual<Pack>(u, (d_momentum - u * d_rho) * inverse);
+  };
+  return {{s.rho, d_rho},
+          speed(s.u, change[1]),
+          speed(s.v, change[2]),
+          speed(s.w, change[3]),
+          {s.p, (gamma - 1.0) * (change[4] - d_kinetic)}};
 }
 
-void store_rows(const Pack columns[8], int count, Row* out) {
+void store_rows(const State<Pack>& s, const Pack& mach_squared, int count, Row* out) {
+  const Pack columns[8] = {s.rho, s.u, s.v, s.w, s.p, mach_squared, 0.0, 0.0};
   Pack rows[8];
   transpose(columns, rows);
   for (int j = 0; j < count; ++j) rows[j].store(out[j].v);
@@ -76,41 +83,62 @@ void store_rows(const Pack columns[8], int count, Row* out) {
 
 }  // namespace
 
-/// Fills own rows from the conserved state, or from its derivative along *dq; `turn` leads from the axes of dq.
-void EulerOperator::fill_cells(Vec q, const Frames& frames, const Vec* dq, std::vector<Row>& rows,
-                               const ZoneTurn& turn) {
-  const double *values = nullptr, *derivatives = nullptr;
+/// The relative Mach numbers of eight cells where fluxes ask for them, else a constant.
+template <class T>
+T EulerOperator::mach_column(const State<T>& s, const Pack grid[3]) const {
+  T column(1.0);
+  if (model_.low_mach || model_.flux->needs_mach)
+    for (int i = 0; i < Pack::kParts; ++i) {
+      const Register velocity[3] = {part(grid[0], i), part(grid[1], i), part(grid[2], i)};
+      set_part(column, i, bounded_mach_squared(part(s, i), velocity, model_.gamma));
+    }
+  return column;
+}
+
+void EulerOperator::fill_cells(Vec q, const Frames& frames) {
+  held_.content = {};
+  held_.rate = false;
+  const double* values = nullptr;
   petsc(VecGetArrayRead(q, &values));
-  if (dq) petsc(VecGetArrayRead(*dq, &derivatives));
-  const bool use_mach = model_.low_mach || model_.flux->needs_mach;
   for (size_t z = 0; z < frames.size(); ++z) {
     const GridVelocity grid_velocity(frames[z]);
     for (mesh::Index c = zone_cells_[z].begin; c < zone_cells_[z].end; c += 8) {
       const mesh::Index left = mesh_.n_owned - c;
-      const int count = std::min<int>(8, zone_cells_[z].end - c);
-      Pack grid[3], columns[8], out[8];
+      Pack grid[3], columns[8];
       grid_velocity.at(Eight<3>(mesh_.centroid[c].data(), left), grid);
       load_columns(Eight<5>(values + 5 * c, left), columns);
-      if (!dq) {
-        make_rows(columns, grid, use_mach, model_.gamma, out);
-      } else {
-        Pack along[8];
-        load_columns(Eight<5>(derivatives + 5 * c, left), along);
-        if (!turn.none()) {
-          const Mat3& R = turn.forth(z);
-          const Pack m[3] = {along[1], along[2], along[3]};
-          for (int i = 0; i < 3; ++i) along[1 + i] = R(i, 0) * m[0] + R(i, 1) * m[1] + R(i, 2) * m[2];
-        }
-        Dual<Pack> dual[5], rows_of_dual[8];
-        for (int k = 0; k < 5; ++k) dual[k] = {columns[k], along[k]};
-        make_rows(dual, grid, use_mach, model_.gamma, rows_of_dual);
-        for (int k = 0; k < 8; ++k) out[k] = rows_of_dual[k].d;
-      }
-      store_rows(out, count, &rows[c]);
+      const State<Pack> s = primitive(columns, model_.gamma);
+      store_rows(s, mach_column(s, grid), std::min<int>(8, zone_cells_[z].end - c), &cells_[c]);
     }
   }
   petsc(VecRestoreArrayRead(q, &values));
-  if (dq) petsc(VecRestoreArrayRead(*dq, &derivatives));
+}
+
+/// Fills own rows of the derivative along dq; `turn` leads from the axes of dq.
+void EulerOperator::fill_derivatives(Vec dq, const ZoneTurn& turn) {
+  const double* derivatives = nullptr;
+  petsc(VecGetArrayRead(dq, &derivatives));
+  for (size_t z = 0; z < held_.frames.size(); ++z) {
+    const GridVelocity grid_velocity(held_.frames[z]);
+    for (mesh::Index c = zone_cells_[z].begin; c < zone_cells_[z].end; c += 8) {
+      const mesh::Index left = mesh_.n_owned - c;
+      const int count = std::min<int>(8, zone_cells_[z].end - c);
+      Pack grid[3], along[8], rows[8], columns[8];
+      grid_velocity.at(Eight<3>(mesh_.centroid[c].data(), left), grid);
+      load_columns(Eight<5>(derivatives + 5 * c, left), along);
+      if (!turn.none()) {
+        const Mat3& R = turn.forth(z);
+        const Pack m[3] = {along[1], along[2], along[3]};
+        for (int i = 0; i < 3; ++i) along[1 + i] = R(i, 0) * m[0] + R(i, 1) * m[1] + R(i, 2) * m[2];
+      }
+      for (int i = 0; i < 8; ++i) rows[i] = Pack::load(cells_[c + std::min(i, count - 1)].v);
+      transpose(rows, columns);
+      const State<Dual<Pack>> s =
+          with_derivative({columns[0], columns[1], columns[2], columns[3], columns[4]}, along, model_.gamma);
+      store_rows({s.rho.d, s.u.d, s.v.d, s.w.d, s.p.d}, mach_column(s, grid).d, count, &d_cells_[c]);
+    }
+  }
+  petsc(VecRestoreArrayRead(dq, &derivatives));
 }
 
 void EulerOperator::exchange_halo(std::vector<Row>& rows) const {
@@ -135,7 +163,8 @@ void EulerOperator::end_interfaces(std::vector<Row>& rows, std::vector<GradientR
 
 /// Rows of q, also of other ranks' cells at interfaces.
 void EulerOperator::load_cells(Vec q, const Frames& frames) {
-  fill_cells(q, frames, nullptr, cells_);
+  if (holds(q, frames)) return;
+  fill_cells(q, frames);
   exchange_halo(cells_);
   sliding_.begin_exchange(cells_.data(), row_type_);
   sliding_.end_exchange(cells_.data(), row_type_);

@@ -219,13 +219,10 @@ void prefetch(const FaceInput& in, const mesh::FaceBlock* blocks, int left, cons
 /// A flux of eight faces, as many at a time as one register takes: eight at once would be more values than registers.
 template <class FluxScheme, class T>
 Flux<T> flux_of(const State<T>& l, const State<T>& r, const FaceNormal<Pack>& n, const T& mach, double gamma) {
-  const auto state = [](const State<T>& s, int i) {
-    return State{part(s.rho, i), part(s.u, i), part(s.v, i), part(s.w, i), part(s.p, i)};
-  };
   Flux<T> all;
   for (int i = 0; i < Pack::kParts; ++i) {
     const FaceNormal normal{part(n.x, i), part(n.y, i), part(n.z, i), part(n.grid_speed, i)};
-    const auto f = FluxScheme::flux(state(l, i), state(r, i), normal, part(mach, i), gamma);
+    const auto f = FluxScheme::flux(part(l, i), part(r, i), normal, part(mach, i), gamma);
     set_part(all.mass, i, f.mass), set_part(all.x, i, f.x), set_part(all.y, i, f.y), set_part(all.z, i, f.z);
     set_part(all.energy, i, f.energy);
   }

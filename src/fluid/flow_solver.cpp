@@ -279,7 +279,7 @@ void FlowSolver::accept() {
   state_.tightness = next_tightness();
   note_krylov();
   std::swap(state_.previous, state_.q);
-  petsc(VecCopy(stages_.back(), state_.q));
+  std::swap(state_.q, stages_.back());
   state_.time += dt_;
   state_.last_step = dt_;
   ++state_.step;

@@ -31,6 +31,12 @@ Flux<T> operator*(const S& s, const Flux<T>& a) {
   return {s * a.mass, s * a.x, s * a.y, s * a.z, s * a.energy};
 }
 
+/// Those of eight that one register holds.
+template <class T>
+auto part(const State<T>& s, int i) {
+  return State{part(s.rho, i), part(s.u, i), part(s.v, i), part(s.w, i), part(s.p, i)};
+}
+
 template <class T>
 T speed_squared(const State<T>& s) {
   return s.u * s.u + s.v * s.v + s.w * s.w;

@@ -18,27 +18,27 @@ double shorter(double part, double growth) {
 PetscErrorCode search(SNESLineSearch search, void*) {
   return CallbackGuard().run([search] {
     SNES snes = nullptr;
-    Vec x = nullptr, f = nullptr, step = nullptr, new_x = nullptr, new_f = nullptr;
+    Vec x = nullptr, f = nullptr, step = nullptr, start = nullptr;
     double x_norm = 0, norm = 0, step_norm = 0, new_norm = 0;
     petsc(SNESLineSearchGetSNES(search, &snes));
-    petsc(SNESLineSearchGetVecs(search, &x, &f, &step, &new_x, &new_f));
+    petsc(SNESLineSearchGetVecs(search, &x, &f, &step, &start, nullptr));
     petsc(SNESLineSearchGetNorms(search, &x_norm, &norm, &step_norm));
     PetscBool changed = PETSC_FALSE;
     petsc(SNESLineSearchPreCheck(search, x, step, &changed));
+    petsc(VecCopy(x, start));
     double part = 1;
     while (true) {
-      petsc(VecWAXPY(new_x, -part, step, x));
-      petsc(SNESComputeFunction(snes, new_x, new_f));
-      petsc(VecNorm(new_f, NORM_2, &new_norm));
+      petsc(VecWAXPY(x, -part, step, start));
+      petsc(SNESComputeFunction(snes, x, f));  // of x itself: who asks for more at x finds it at hand
+      petsc(VecNorm(f, NORM_2, &new_norm));
       if (new_norm <= (1 - kDecrease * part) * norm) break;
       part = shorter(part, new_norm / norm);
       if (part < kLeastPart) {
+        petsc(VecCopy(start, x));
         petsc(SNESLineSearchSetReason(search, SNES_LINESEARCH_FAILED_REDUCT));
         return;
       }
     }
-    petsc(VecCopy(new_x, x));
-    petsc(VecCopy(new_f, f));
     petsc(SNESLineSearchSetLambda(search, part));
     petsc(SNESLineSearchSetNorms(search, x_norm, new_norm, step_norm));
   });

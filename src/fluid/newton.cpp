@@ -26,6 +26,7 @@ NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options)
     : euler_(euler), options_(options), round_off_(euler) {
   const mesh::Mesh& mesh = euler.mesh();
   residual_ = euler.make_vector();
+  euler.keep_rates();
   for (mesh::Index c = 0; c < mesh.n_owned; ++c) per_face_.push_back(std::pow(mesh.volume[c], -2.0 / 3));
   petsc(SNESCreate(mesh.comm, snes_.out()));
   petsc(SNESSetOptionsPrefix(snes_, "fluid_"));

@@ -4,13 +4,15 @@
 #include <cmath>
 #include <map>
 
+#include "base/collective.h"
+
 namespace windhover::fluid {
 
 using mesh::FaceBlock;
 using mesh::Vec3;
 
 SlidingFaces::SlidingFaces(const mesh::Mesh& mesh, std::vector<mesh::SlidingInterface> interfaces)
-    : mesh_(mesh), interfaces_(std::move(interfaces)), n_cells_(mesh.n_cells) {
+    : mesh_(mesh), rank_(rank_of(mesh.comm)), interfaces_(std::move(interfaces)), n_cells_(mesh.n_cells) {
   if (!empty()) number_cells();
 }
 
@@ -20,18 +22,16 @@ bool SlidingFaces::covers(int patch) const {
 }
 
 void SlidingFaces::number_cells() {
-  int rank = 0;
-  MPI_Comm_rank(mesh_.comm, &rank);
   std::map<std::pair<int, mesh::Index>, int> row_of;  // remote cell → its row here
   std::vector<PetscSFNode> remote;
   for (const auto& interface : interfaces_) {
     bool here = false;
     for (int side = 0; side < 2; ++side)
-      for (const auto& face : interface.faces(side)) here |= face.rank == rank;
+      for (const auto& face : interface.faces(side)) here |= face.rank == rank_;
     auto& rows = face_cell_.emplace_back();
     for (int side = 0; side < 2; ++side)
       for (const auto& face : interface.faces(side)) {
-        if (face.rank == rank || !here) {
+        if (face.rank == rank_ || !here) {
           rows[side].push_back(here ? face.cell : -1);
           continue;
         }
@@ -69,6 +69,14 @@ void SlidingFaces::end_exchange(void* rows, MPI_Datatype row) const {
   if (!empty()) petsc(PetscSFBcastEnd(remote_, row, rows, rows, MPI_REPLACE));
 }
 
+void SlidingFaces::begin_sum(void* rows, MPI_Datatype row) const {
+  if (!empty()) petsc(PetscSFReduceBegin(remote_, row, rows, rows, MPI_SUM));
+}
+
+void SlidingFaces::end_sum(void* rows, MPI_Datatype row) const {
+  if (!empty()) petsc(PetscSFReduceEnd(remote_, row, rows, rows, MPI_SUM));
+}
+
 /// By which angle the inner zone is turned about the interface's axis, relative to the parent.
 double SlidingFaces::angle(const mesh::SlidingInterface& interface, const Frames& frames) const {
   const mesh::Mat3 turned = frames[interface.zone(1)].R.transpose() * frames[interface.zone(0)].R;
@@ -76,38 +84,51 @@ double SlidingFaces::angle(const mesh::SlidingInterface& interface, const Frames
   return std::atan2(axis.dot(x.cross(moved)), x.dot(moved));
 }
 
-std::vector<FaceBlock> SlidingFaces::make_blocks(size_t i, double angle) const {
-  const std::vector<mesh::Piece> pieces = interfaces_[i].pieces(angle);
-  interfaces_[i].audit(angle, pieces);
-  std::vector<FaceBlock> blocks((pieces.size() + mesh::kLanes - 1) / mesh::kLanes, FaceBlock{});
-  for (size_t k = 0; k < pieces.size(); ++k) {
-    const mesh::Piece& piece = pieces[k];
-    FaceBlock& b = blocks[k / mesh::kLanes];
-    const int lane = b.count++;
-    const int cell[2] = {face_cell_[i][0][piece.inner], face_cell_[i][1][piece.outer]};
-    for (int d = 0; d < 3; ++d) {
-      b.area[d][lane] = piece.area[d];
-      b.moment[d][lane] = piece.moment[d];
-      for (int side = 0; side < 2; ++side) b.arm[lane][side][d] = piece.arm[side][d];
-    }
-    // padding lanes read the first lane's cells
-    for (int side = 0; side < 2; ++side)
-      for (int l = lane; l < mesh::kLanes && (l == lane || lane == 0); ++l) b.cell[side][l] = cell[side];
-  }
-  return blocks;
+/// Both ranks of a piece say the same of it.
+bool SlidingFaces::is_ours(size_t i, const mesh::Piece& piece) const {
+  const int inner = interfaces_[i].faces(0)[piece.inner].rank, outer = interfaces_[i].faces(1)[piece.outer].rank;
+  return ((piece.inner + piece.outer) % 2 == 0 ? inner : outer) == rank_;
 }
 
-const std::vector<std::vector<FaceBlock>>& SlidingFaces::blocks(const Frames& frames) {
+InterfaceFaces SlidingFaces::make_faces(size_t i, double angle) const {
+  std::vector<mesh::Piece> pieces = interfaces_[i].pieces(angle);
+  interfaces_[i].audit(angle, pieces);
+  const auto others = std::stable_partition(pieces.begin(), pieces.end(), [&](const auto& p) { return is_ours(i, p); });
+  InterfaceFaces faces;
+  const auto append = [&](auto begin, auto end) {
+    for (auto piece = begin; piece != end; ++piece) {
+      if (piece == begin || faces.blocks.back().count == mesh::kLanes) faces.blocks.push_back({});
+      FaceBlock& b = faces.blocks.back();
+      const int lane = b.count++;
+      const int cell[2] = {face_cell_[i][0][piece->inner], face_cell_[i][1][piece->outer]};
+      for (int d = 0; d < 3; ++d) {
+        b.area[d][lane] = piece->area[d];
+        b.moment[d][lane] = piece->moment[d];
+        for (int side = 0; side < 2; ++side) b.arm[lane][side][d] = piece->arm[side][d];
+      }
+      // padding lanes read the first lane's cells
+      for (int side = 0; side < 2; ++side)
+        for (int l = lane; l < mesh::kLanes && (l == lane || lane == 0); ++l) b.cell[side][l] = cell[side];
+    }
+  };
+  faces.blocks.reserve(pieces.size() / mesh::kLanes + 2);
+  append(pieces.begin(), others);
+  faces.n_ours = static_cast<int>(faces.blocks.size());
+  append(others, pieces.end());
+  return faces;
+}
+
+const std::vector<InterfaceFaces>& SlidingFaces::faces(const Frames& frames) {
   std::vector<double> angles;
   for (const auto& interface : interfaces_) angles.push_back(angle(interface, frames));
   for (const Position& p : positions_)
-    if (p.angles == angles) return p.blocks;
+    if (p.angles == angles) return p.faces;
   Position position{angles, {}};
-  for (size_t i = 0; i < interfaces_.size(); ++i) position.blocks.push_back(make_blocks(i, angles[i]));
+  for (size_t i = 0; i < interfaces_.size(); ++i) position.faces.push_back(make_faces(i, angles[i]));
   positions_.push_back(std::move(position));
   constexpr size_t kept = 3;
   if (positions_.size() > kept) positions_.pop_front();
-  return positions_.back().blocks;
+  return positions_.back().faces;
 }
 
 }  // namespace windhover::fluid

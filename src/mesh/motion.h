@@ -22,6 +22,7 @@ struct FrameState {
 
   Vec3 position(const Vec3& r) const { return x + R * r; }
   Vec3 velocity(const Vec3& r) const { return V + omega.cross(R * r); }
+  bool operator==(const FrameState&) const = default;
 };
 
 /// The frame `inner`, given relative to `outer`, seen from outside.
