@@ -35,8 +35,8 @@ struct Lanes {
     for (Part& p : part) p = s - Part{};
   }
   template <class... P>
-  requires(sizeof...(P) == kParts && (std::is_same_v<P, Part> && ...)) explicit Lanes(const P&... parts)
-      : part{parts...} {}
+    requires(sizeof...(P) == kParts && (std::is_same_v<P, Part> && ...))
+  explicit Lanes(const P&... parts) : part{parts...} {}
 
   /// Aligned to their size.
   static Lanes load(const double* p) {
@@ -173,10 +173,10 @@ Pack::Part across(const Pack::Part& a, const Pack::Part& b) {
 /// A register of sixteen doubles, from `first` on; what would be beyond them means nothing.
 template <int first>
 Pack::Part window_part(const double* sixteen) {
-  constexpr int last = 16 - kWidth;
+  constexpr int last = 16 - kWidth, beyond = first < 16 ? first - last : 0;
   const auto aligned = [=](int i) { return *reinterpret_cast<const Pack::Part*>(sixteen + i); };
   if constexpr (first >= last)
-    return across < first < 16 ? first - last : 0 > (aligned(last), aligned(last));
+    return across<beyond>(aligned(last), aligned(last));
   else if constexpr (kWidth == 8)
     return across<first>(aligned(0), aligned(8));
   else

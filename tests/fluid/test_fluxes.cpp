@@ -150,3 +150,15 @@ TEST_CASE("eight lanes give what one gives", "[flux]") {
   for (int i = 0; i < 8; ++i)
     for (int j = 0; j < 8; ++j) CHECK(back[i][j] == 8 * j + i);
 }
+
+TEST_CASE("three rows of five are packed without gaps and found again", "[flux]") {
+  alignas(64) double packed[16] = {};
+  Pack rows[3];
+  for (int d = 0; d < 3; ++d)
+    for (int k = 0; k < 8; ++k) rows[d].set(k, k < kVariables ? 10 * d + k : -1);
+  store_fives(rows[0], rows[1], rows[2], packed);
+  for (int i = 0; i < 15; ++i) CHECK(packed[i] == 10 * (i / kVariables) + i % kVariables);
+  const Pack found[3] = {window<0>(packed), window<5>(packed), window<10>(packed)};
+  for (int d = 0; d < 3; ++d)
+    for (int k = 0; k < 8; ++k) CHECK(first_lanes<kVariables>(found[d])[k] == (k < kVariables ? 10 * d + k : 0));
+}

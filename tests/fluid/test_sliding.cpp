@@ -79,6 +79,37 @@ TEST_CASE("the exact derivative sees across a sliding interface", "[sliding]") {
   CHECK(derivative_error(euler, q, frames) < 1e-6);
 }
 
+TEST_CASE("what a residual leaves behind is used for the same state at the same frames, and for no other", "[sliding]") {
+  Setup s(false, {}, BoundaryKind::farfield);
+  s.model.far = {1.0, 0.3, -0.2, 0.1, 1 / 1.4};
+  EulerOperator keeps(s.sliding.mesh, s.model, s.sliding.interfaces), forgets(s.sliding.mesh, s.model, s.sliding.interfaces);
+  keeps.keep_rates();
+  const FrameFunction frames = spinning(s.sliding.mesh, s.surface, s.inner_zone(), 0.9, tumbling(0.3));
+  const VecHandle q = keeps.make_vector(), dq = keeps.make_vector(), other = keeps.make_vector(), a = keeps.make_vector(),
+                  b = keeps.make_vector();
+  set_initial(keeps, frames(0), uniform_state(s.model.far), q);
+  add_noise(keeps, 0.01, q);
+  add_noise(keeps, 1.0, dq);
+  petsc(VecWAXPY(other, 1e-3, dq, q));
+  const auto same = [&](const Frames& at) {
+    keeps.residual(q, at, a);
+    forgets.residual(other, at, b);  // nothing of q is left
+    forgets.residual(q, at, b);
+    return distance(a, b, NORM_INFINITY) == 0;
+  };
+  keeps.residual(q, frames(0.7), a, {.mass = 2, .rate = 0.5, .known = dq});
+  CHECK(same(frames(0.7)));
+  keeps.linearize(q, frames(0.7));
+  keeps.derivative(dq, a);
+  forgets.residual(other, frames(0.7), b);
+  forgets.linearize(q, frames(0.7));
+  forgets.derivative(dq, b);
+  CHECK(distance(a, b, NORM_INFINITY) == 0);
+  CHECK(same(frames(0.8)));
+  add_noise(keeps, 0.01, q);
+  CHECK(same(frames(0.8)));
+}
+
 TEST_CASE("the blocks between zones are what the first-order scheme's derivative sees across the interface", "[sliding]") {
   const bool sphere = GENERATE(false, true);
   const int from = GENERATE(0, 1);  // the zone that changes
