@@ -50,7 +50,7 @@ class Flow:
         self.make()
         folder = into or self.folder.parent / "again"
         shutil.rmtree(folder, ignore_errors=True)
-        shutil.copytree(self.folder, folder, ignore=shutil.ignore_patterns("fields"))
+        shutil.copytree(self.folder, folder, ignore=shutil.ignore_patterns("fields", "summary.json"))
         before = int(rows_of(folder)[-1]["step"])
         windhover("run", self.case, [*self.sets, *sets], "--restart", "--steps", str(before + steps), "--out", folder, ranks=ranks)
         rows = [row for row in rows_of(folder) if int(row["step"]) > before]
@@ -102,7 +102,7 @@ def ranks(work, tell):
 def small_steps(work, tell, flow, degrees, explicit_degrees, sets=()):
     """Dual time to two orders and SSP-RK3, after implicit steps of the small size."""
     small = Flow(flow.case, work / f"{flow.folder.name}_small", flow.sets, 0)
-    if not small.folder.exists():
+    if not (small.folder / "summary.json").exists():
         flow.go_on(60, [f"time.step_deg={degrees}", *sets], into=small.folder)
     tell(small.go_on(12, [f"time.step_deg={degrees}", *SMALL, *sets]), method="dual time", degrees=degrees)
     tell(small.go_on(100, [f"time.step_deg={explicit_degrees}", *EXPLICIT, *sets]), method="ssp_rk3", degrees=explicit_degrees)

@@ -207,7 +207,8 @@ Pack window(const double* sixteen) {
   return pack::window<first>(sixteen, std::make_integer_sequence<int, Pack::kParts>());
 }
 
-/// The first five lanes of each, one after the other in sixteen doubles (64-byte aligned); the last means nothing.
+/// The first five lanes of each, one after the other in sixteen doubles (64-byte aligned); the last means nothing. A
+/// template so that the branch of another width is not compiled.
 template <class P = Pack>
 void store_fives(const P& a, const P& b, const P& c, double* sixteen) {
   constexpr int width = P::kWidth;

@@ -167,7 +167,7 @@ void EulerOperator::sum_rates(std::vector<Row>& cells, std::vector<GradientRow>&
   };
   for_each_zone(frames, between_cells);
   end_interfaces(cells, gradients);
-  for_each_interface(frames, between_cells, true);
+  for_each_interface(frames, between_cells, /*ours=*/true);
   sliding_.begin_sum(rates_.data(), row_type_);
   for_each_patch(frames, [&](const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int n, int) {
     boundary(in, kind, blocks, n, rates_.data());

@@ -84,7 +84,8 @@ class EulerOperator {
   /// From now on residual() keeps R: asked for R alone of the same q at the same frames, it is at hand.
   void keep_rates();
 
-  /// Fixes the state for derivative(). At no cost where residual() was the last to be asked, of the same q and frames.
+  /// Fixes the state for derivative(), until another state is asked for anything. At no cost where residual() was the last
+  /// to be asked, of the same q and frames.
   void linearize(Vec q, const Frames& frames);
   /// out = (mass V + rate dR/dq) dq, exact (forward mode); dq and out in the axes from which `turn` leads to the state's.
   void derivative(Vec dq, Vec out, const Combination& combination = {}, const ZoneTurn& turn = {});

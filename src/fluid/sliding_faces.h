@@ -62,8 +62,7 @@ class SlidingFaces {
   int rank_;
   std::vector<mesh::SlidingInterface> interfaces_;
   mesh::Index n_cells_;
-  std::vector<std::array<std::vector<int>, 2>>
-      face_cell_;  ///< row of each face's cell; −1 on ranks away from the interface
+  std::vector<std::array<std::vector<int>, 2>> face_cell_;  ///< row of each face's cell; −1 on ranks away from the interface
   SfHandle remote_;
   std::deque<Position> positions_;  ///< the latest ones: a step works at its two ends
 };
