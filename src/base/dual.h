@@ -78,8 +78,14 @@ Dual<T> power(const Dual<T>& a, double exponent) {
   return {value, exponent * value / a.v * a.d};
 }
 
-inline Dual<Register> part(const Dual<Pack>& a, int i) { return {part(a.v, i), part(a.d, i)}; }
-inline void set_part(Dual<Pack>& a, int i, const Dual<Register>& r) { set_part(a.v, i, r.v), set_part(a.d, i, r.d); }
+template <class Number>
+auto part(const Dual<PackOf<Number>>& a, int i) {
+  return Dual{part(a.v, i), part(a.d, i)};
+}
+template <class Number, class R>
+void set_part(Dual<PackOf<Number>>& a, int i, const Dual<R>& r) {
+  set_part(a.v, i, r.v), set_part(a.d, i, r.d);
+}
 
 // Shared by all scalar types of the kernels.
 template <class T>

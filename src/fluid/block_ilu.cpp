@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "base/petsc.h"
+#include "fluid/five_columns.h"
 // needs PETSc's types before it
 #include <petsc/private/kernels/blockinvert.h>
 
@@ -14,28 +15,7 @@ namespace {
 
 constexpr int kSize = 5, kEntries = kSize * kSize, kPadded = 8;
 
-/// A column of a block and three numbers after it that mean nothing.
-typedef float Column __attribute__((vector_size(32)));
-
-Column load(const float* p) {
-  Column c;
-  std::memcpy(&c, p, sizeof c);
-  return c;
-}
 void store(const Column& c, float* p) { std::memcpy(p, &c, sizeof c); }
-
-using Bfloat16 = std::uint16_t;
-
-Column load(const Bfloat16* p) {
-  typedef Bfloat16 Halves __attribute__((vector_size(16)));
-  typedef std::uint32_t Wholes __attribute__((vector_size(32)));
-  Halves halves;
-  std::memcpy(&halves, p, sizeof halves);
-  const Wholes bits = __builtin_convertvector(halves, Wholes) << 16;
-  Column c;
-  std::memcpy(&c, &bits, sizeof c);
-  return c;
-}
 
 /// To nearest; what is not finite does not count, the pivots tell.
 void store(const Column& c, Bfloat16* p) {
@@ -53,14 +33,6 @@ std::unique_ptr<Number[]> allocate_blocks(size_t count) {
   auto blocks = std::make_unique<Number[]>(count * kEntries + kPadded);
   use_large_pages(blocks.get(), count * kEntries * sizeof(Number));
   return blocks;
-}
-
-/// block · x
-template <class Number>
-inline Column times(const Number* block, const float* x) {
-  Column sum = load(block) * x[0];
-  for (int k = 1; k < kSize; ++k) sum += load(block + kSize * k) * x[k];
-  return sum;
 }
 
 /// A block whose columns are padded to whole registers.
@@ -88,7 +60,7 @@ void pack(const Padded& from, Bfloat16* to) {
 /// factor · block
 inline Padded times(const Padded& factor, const Bfloat16* block) {
   float entries[kEntries + kPadded];
-  for (int k = 0; k < kSize; ++k) store(load(block + kSize * k), entries + kSize * k);
+  for (int k = 0; k < kSize; ++k) store(load_column(block + kSize * k), entries + kSize * k);
   Padded product;
   for (int k = 0; k < kSize; ++k) product.column[k] = times(factor, entries + kSize * k);
   return product;
@@ -233,7 +205,7 @@ void BlockIlu::solve(const double* b, double* x) {
   }
   for (int i = n_ - 1; i >= 0; --i) {
     float* y = &work_[size_t(i) * kPadded];
-    Column sum = load(y);
+    Column sum = load_column(y);
     for (size_t at = upper_.start[i]; at < upper_.start[i + 1]; ++at)
       sum -= times(ahead<-kAhead>(&upper_.block[at * kEntries]), &work_[size_t(upper_.column[at]) * kPadded]);
     store(sum, y);
@@ -242,7 +214,7 @@ void BlockIlu::solve(const double* b, double* x) {
   }
 }
 
-void BlockIlu::solve_row(int row, const double* b, double* x) const {
+void BlockIlu::solve_row(int row, const double* b, float* x) const {
   float y[kPadded];
   store(rounded(b), y);
   store(times(&pivot_[size_t(row) * kEntries], y), y);

@@ -18,7 +18,7 @@ class BlockIlu {
   /// x = U⁻¹ L⁻¹ b, five values a row.
   void solve(const double* b, double* x);
   /// x = U⁻¹ b of one row alone.
-  void solve_row(int row, const double* b, double* x) const;
+  void solve_row(int row, const double* b, float* x) const;
 
  private:
   /// Rows of blocks on one side of the diagonal.

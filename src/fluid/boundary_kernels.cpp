@@ -5,9 +5,10 @@ namespace {
 
 using enum Reconstruction;
 using D = Dual<Pack>;
+using S = Dual<PackOf<float>>;
 
 void boundary_jacobian(const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock& b, BlockPack& block) {
-  const FaceGeometry face = face_geometry(in, b);
+  const auto face = face_geometry<Pack>(in, b);
   const State<Pack> inside = face_side<first_order, Pack>(in, b, 0).state;
   for (int k = 0; k < kVariables; ++k) {
     const State<D> s = boundary_state(kind, seeded_state(inside, k, in.gamma), in, face.normal);
@@ -17,7 +18,7 @@ void boundary_jacobian(const FaceInput& in, BoundaryKind kind, const mesh::FaceB
 
 template <Reconstruction R>
 State<Pack> state_on_face(const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock& b) {
-  return boundary_state(kind, face_side<R, Pack>(in, b, 0).state, in, face_geometry(in, b).normal);
+  return boundary_state(kind, face_side<R, Pack>(in, b, 0).state, in, face_geometry<Pack>(in, b).normal);
 }
 
 }  // namespace
@@ -25,6 +26,7 @@ State<Pack> state_on_face(const FaceInput& in, BoundaryKind kind, const mesh::Fa
 const BoundaryKernels kBoundaryKernels = {
     {sum_boundary<first_order, Pack>, sum_boundary<linear, Pack>, sum_boundary<limited, Pack>},
     {sum_boundary<first_order, D>, sum_boundary<linear, D>, sum_boundary<limited, D>},
+    {sum_boundary<first_order, S>, sum_boundary<linear, S>, sum_boundary<limited, S>},
     boundary_jacobian,
     {state_on_face<first_order>, state_on_face<linear>, state_on_face<limited>}};
 

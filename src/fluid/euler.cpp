@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "base/errors.h"
-#include "base/memory.h"
 // needs PETSc's types before it
 #include <petsc/private/petscimpl.h>
 
@@ -55,7 +54,6 @@ EulerOperator::EulerOperator(const mesh::Mesh& mesh, FlowModel model, std::vecto
       green_gauss_.emplace(mesh_);
     else
       least_squares_.emplace(mesh_);
-    gradients_.resize(n_sides);
   }
   zone_cells_.resize(mesh_.zones.size());
   for (mesh::Index c = 0; c < mesh_.n_owned; ++c) {
@@ -63,11 +61,9 @@ EulerOperator::EulerOperator(const mesh::Mesh& mesh, FlowModel model, std::vecto
     if (zone.size() == 0) zone.begin = c;
     zone.end = c + 1;
   }
-  cells_.resize(sliding_.n_cells());
+  state_.resize(sliding_.n_cells(), model_.reconstruction != Reconstruction::first_order ? n_sides : 0);
   rates_.resize(n_sides);
-  use_large_pages(cells_);
   use_large_pages(rates_);
-  use_large_pages(gradients_);
 }
 
 VecHandle EulerOperator::make_vector() const {
@@ -79,10 +75,8 @@ VecHandle EulerOperator::make_vector() const {
 
 FaceInput EulerOperator::face_input(const FrameState& frame) const {
   FaceInput in;
-  in.cells = cells_.data();
-  in.gradients = gradients_.data();
-  in.d_cells = d_cells_.data();
-  in.d_gradients = d_gradients_.data();
+  in.rows = state_.rows(derivative_);
+  in.rows_single = state_single_.rows(derivative_single_);
   const Vec3 V = frame.R.transpose() * frame.V, omega = frame.R.transpose() * frame.omega;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) in.rotation[3 * i + j] = frame.R(i, j);
@@ -151,28 +145,30 @@ void EulerOperator::hold(Vec q, const Frames& frames) {
 void EulerOperator::prepare(Vec q, const Frames& frames) {
   if (holds(q, frames)) return;
   fill_cells(q, frames);
-  exchange_halo(cells_);
-  update_gradients(cells_, gradients_);
+  exchange_halo(state_);
+  update_gradients(state_);
 }
 
 /// From own rows of the cells. The zones' own faces come while other ranks' rows at interfaces are under way, the
 /// boundaries while fluxes through interfaces are, which one of the two ranks of a face makes.
-void EulerOperator::sum_rates(std::vector<Row>& cells, std::vector<GradientRow>& gradients, const Frames& frames,
-                              FluxKernels::Sum interior, BoundaryKernels::Sum boundary) {
-  exchange_halo(cells);
-  update_gradients(cells, gradients);
-  begin_interfaces(cells, gradients);
+template <class Number>
+void EulerOperator::sum_rates(CellFields<Number>& fields, const Frames& frames, FluxKernels::Sum interior,
+                              BoundaryKernels::Sum boundary) {
+  exchange_halo(fields);
+  update_gradients(fields);
+  begin_interfaces(fields);
   const auto between_cells = [&](const FaceInput& in, const mesh::FaceBlock* blocks, int n) {
     interior(in, blocks, n, rates_.data());
   };
   for_each_zone(frames, between_cells);
-  end_interfaces(cells, gradients);
+  end_interfaces(fields);
   for_each_interface(frames, between_cells, /*ours=*/true);
-  sliding_.begin_sum(rates_.data(), row_type_);
+  const MpiType& row = std::get<RowTypes<double>>(types_).row;
+  sliding_.begin_sum(rates_.data(), row);
   for_each_patch(frames, [&](const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int n, int) {
     boundary(in, kind, blocks, n, rates_.data());
   });
-  sliding_.end_sum(rates_.data(), row_type_);
+  sliding_.end_sum(rates_.data(), row);
 }
 
 void EulerOperator::keep_rates() {
@@ -187,7 +183,7 @@ void EulerOperator::residual(Vec q, const Frames& frames, Vec out, const Combina
   }
   fill_cells(q, frames);
   const int r = static_cast<int>(model_.reconstruction);
-  sum_rates(cells_, gradients_, frames, model_.flux->residual[r], kBoundaryKernels.residual[r]);
+  sum_rates(state_, frames, model_.flux->residual[r], kBoundaryKernels.residual[r]);
   store_rates(q, out, combination, {}, rate_);
   hold(q, frames);
   held_.rate = rate_;
@@ -196,22 +192,25 @@ void EulerOperator::residual(Vec q, const Frames& frames, Vec out, const Combina
 void EulerOperator::linearize(Vec q, const Frames& frames) {
   if (!holds(q, frames)) {
     prepare(q, frames);
-    begin_interfaces(cells_, gradients_);
-    end_interfaces(cells_, gradients_);
+    begin_interfaces(state_);
+    end_interfaces(state_);
     hold(q, frames);
-  }
-  if (d_cells_.empty()) {
-    d_cells_.resize(cells_.size());
-    d_gradients_.resize(gradients_.size());
-    use_large_pages(d_cells_);
-    use_large_pages(d_gradients_);
   }
 }
 
-void EulerOperator::derivative(Vec dq, Vec out, const Combination& combination, const ZoneTurn& turn) {
-  fill_derivatives(dq, turn);
+void EulerOperator::derivative(Vec dq, Vec out, const Combination& combination, const ZoneTurn& turn, bool single) {
   const int r = static_cast<int>(model_.reconstruction);
-  sum_rates(d_cells_, d_gradients_, held_.frames, model_.flux->derivative[r], kBoundaryKernels.derivative[r]);
+  const auto sum = [&](const auto& state, auto& along, const auto& interior, const auto& boundary) {
+    if (along.cells.empty()) along.resize(state_.cells.size(), state_.gradients.size());
+    fill_derivatives(dq, turn, state, along);
+    sum_rates(along, held_.frames, interior[r], boundary[r]);
+  };
+  if (single) {
+    round_state();
+    sum(state_single_, derivative_single_, model_.flux->derivative_single, kBoundaryKernels.derivative_single);
+  } else {
+    sum(state_, derivative_, model_.flux->derivative, kBoundaryKernels.derivative);
+  }
   store_rates(dq, out, combination, turn);
 }
 

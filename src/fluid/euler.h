@@ -6,8 +6,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "base/memory.h"
 #include "base/mpi_type.h"
 #include "fluid/block_jacobian.h"
 #include "fluid/boundary_kernels.h"
@@ -49,13 +51,37 @@ struct SurfacePoints {
 /// An entry of the first-order Jacobian between cells on two sides of a sliding interface; rows as SlidingFaces counts them.
 struct InterfaceBlock {
   mesh::Index row, column;
-  Eigen::Matrix<float, kVariables, kVariables> block;
+  float block[28];  ///< 25 by columns; the others mean nothing
 };
 
 /// How the rate of change R enters a result: mass V x + rate R + known.
 struct Combination {
   double mass = 0, rate = 1;
   Vec known = nullptr;
+};
+
+/// Rows of all cells that are known here (own, of neighbours, and of other ranks at interfaces) and their gradients.
+template <class Number>
+struct CellFields {
+  std::vector<RowOf<Number>> cells;
+  std::vector<GradientRowOf<Number>> gradients;
+
+  void resize(size_t n_cells, size_t n_gradients) {
+    cells.resize(n_cells);
+    gradients.resize(n_gradients);
+    use_large_pages(cells);
+    use_large_pages(gradients);
+  }
+  CellRows<Number> rows(const CellFields& derivative) const {
+    return {cells.data(), gradients.data(), derivative.cells.data(), derivative.gradients.data()};
+  }
+};
+
+/// What travels between ranks.
+template <class Number>
+struct RowTypes {
+  MpiType row{8, std::is_same_v<Number, float> ? MPI_FLOAT : MPI_DOUBLE};
+  MpiType gradient{16, std::is_same_v<Number, float> ? MPI_FLOAT : MPI_DOUBLE};
 };
 
 /// Which vector, and which of the contents it has had; the same on all ranks.
@@ -88,7 +114,8 @@ class EulerOperator {
   /// to be asked, of the same q and frames.
   void linearize(Vec q, const Frames& frames);
   /// out = (mass V + rate dR/dq) dq, exact (forward mode); dq and out in the axes from which `turn` leads to the state's.
-  void derivative(Vec dq, Vec out, const Combination& combination = {}, const ZoneTurn& turn = {});
+  /// `single`: what passes through faces is made of floats, and summed in doubles.
+  void derivative(Vec dq, Vec out, const Combination& combination = {}, const ZoneTurn& turn = {}, bool single = false);
 
   /// jacobian = scale · d(first-order residual)/dq + diagonal(mass_scale · volume). `damping`: a speed by which the
   /// dissipation of each wave between cells is more than the residual's.
@@ -122,16 +149,22 @@ class EulerOperator {
 
  private:
   template <class T>
-  T mach_column(const State<T>& s, const Pack grid[3]) const;
+  T mach_column(const State<T>& s, const PackFor<T> grid[3]) const;
   void fill_cells(Vec q, const Frames& frames);
-  void fill_derivatives(Vec dq, const ZoneTurn& turn);
+  template <class Number>
+  void fill_derivatives(Vec dq, const ZoneTurn& turn, const CellFields<Number>& state, CellFields<Number>& derivative);
+  void round_state();
   bool holds(Vec q, const Frames& frames) const;
   void hold(Vec q, const Frames& frames);
   void load_cells(Vec q, const Frames& frames);
-  void exchange_halo(std::vector<Row>& rows) const;
-  void update_gradients(const std::vector<Row>& rows, std::vector<GradientRow>& gradients) const;
-  void begin_interfaces(std::vector<Row>& rows, std::vector<GradientRow>& gradients) const;
-  void end_interfaces(std::vector<Row>& rows, std::vector<GradientRow>& gradients) const;
+  template <class Number>
+  void exchange_halo(CellFields<Number>& fields) const;
+  template <class Number>
+  void update_gradients(CellFields<Number>& fields) const;
+  template <class Number>
+  void begin_interfaces(CellFields<Number>& fields) const;
+  template <class Number>
+  void end_interfaces(CellFields<Number>& fields) const;
   FaceInput face_input(const mesh::FrameState& frame) const;
   /// Calls visit(input, blocks, count) for the faces inside each zone.
   template <class Visit>
@@ -163,27 +196,28 @@ class EulerOperator {
             ours ? faces.n_ours : static_cast<int>(faces.blocks.size()));
     }
   }
-  void sum_rates(std::vector<Row>& cells, std::vector<GradientRow>& gradients, const Frames& frames,
-                 FluxKernels::Sum interior, BoundaryKernels::Sum boundary);
+  template <class Number>
+  void sum_rates(CellFields<Number>& fields, const Frames& frames, FluxKernels::Sum interior, BoundaryKernels::Sum boundary);
   void store_rates(Vec x, Vec out, const Combination& combination, const ZoneTurn& turn = {}, Vec rate = nullptr);
   void prepare(Vec q, const Frames& frames);
 
   const mesh::Mesh& mesh_;
   FlowModel model_;
   SlidingFaces sliding_;
-  MpiType row_type_{8}, gradient_type_{16};
+  std::tuple<RowTypes<double>, RowTypes<float>> types_;
   std::vector<std::optional<BoundaryKind>> patch_kind_;  ///< none: an interface
   std::vector<mesh::Range> zone_cells_;                  ///< owned cells of each zone
   std::optional<GreenGauss> green_gauss_;
   std::optional<LeastSquares> least_squares_;
-  std::vector<Row> cells_, d_cells_;
+  CellFields<double> state_, derivative_;
+  CellFields<float> state_single_, derivative_single_;  ///< from the first time they are asked for
   std::vector<Row> rates_;  ///< zero but between sum_rates() and store_rates()
-  std::vector<GradientRow> gradients_, d_gradients_;
-  /// The state whose rows and gradients are in cells_ and gradients_, those of other ranks and at interfaces as well.
+  /// The state whose rows and gradients are in state_, those of other ranks and at interfaces as well.
   struct {
     VecContent content;
     Frames frames;
-    bool rate = false;  ///< rate_ is of it
+    bool rate = false;    ///< rate_ is of it
+    bool single = false;  ///< state_single_ is
   } held_;
   VecHandle rate_;
 };

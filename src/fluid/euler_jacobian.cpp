@@ -1,4 +1,6 @@
 // Assembly of the first-order Jacobian, the matrix the preconditioners are made from.
+#include <algorithm>
+
 #include "fluid/euler.h"
 
 namespace windhover::fluid {
@@ -9,13 +11,15 @@ using mesh::Index;
 namespace {
 
 /// The blocks of eight faces, each as 25 contiguous numbers (column-major, as BAIJ stores them).
+template <class Number>
 struct alignas(64) LaneBlocks {
-  double block[mesh::kLanes][32];
+  Number block[mesh::kLanes][32];
 
-  explicit LaneBlocks(const BlockPack& packs) {
+  explicit LaneBlocks(const BlockPackOf<Number>& packs) {
+    using P = PackOf<Number>;
     for (int part = 0; part < 4; ++part) {
-      Pack columns[8], rows[8];
-      for (int k = 0; k < 8; ++k) columns[k] = 8 * part + k < int(packs.size()) ? packs[8 * part + k] : Pack(0.0);
+      P columns[8], rows[8];
+      for (int k = 0; k < 8; ++k) columns[k] = 8 * part + k < int(packs.size()) ? packs[8 * part + k] : P(0.0);
       transpose(columns, rows);
       for (int i = 0; i < 8; ++i) rows[i].store(&block[i][8 * part]);
     }
@@ -30,12 +34,12 @@ void EulerOperator::first_order_jacobian(Vec q, const Frames& frames, double sca
   jacobian.begin();
   // across an interface only the cells' own blocks: the neighbours change from step to step
   for_each_interface(frames, [&](FaceInput in, const FaceBlock* blocks, int n) {
-    BlockPack sides[2];
+    BlockPack side;
     in.damping = damping;
     for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
-      model_.flux->jacobian(in, *b, sides);
       for (int s = 0; s < 2; ++s) {
-        const LaneBlocks lanes(sides[s]);
+        model_.flux->jacobian(in, *b, s, side);
+        const LaneBlocks lanes(side);
         for (int i = 0; i < b->count; ++i)
           if (const Index c = b->cell[s][i]; c < mesh_.n_owned)
             jacobian.add_diagonal(c, lanes.block[i], s == 0 ? scale : -scale);
@@ -43,14 +47,14 @@ void EulerOperator::first_order_jacobian(Vec q, const Frames& frames, double sca
     }
   });
   for_each_zone(frames, [&](FaceInput in, const FaceBlock* blocks, int n) {
-    BlockPack sides[2];
+    BlockPack side;
     in.damping = damping;
     for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
       const size_t first = size_t(b - mesh_.faces.data()) * mesh::kLanes;
       for (int i = 0; i < b->count; ++i) jacobian.prefetch_face(first + i);
-      model_.flux->jacobian(in, *b, sides);
       for (int s = 0; s < 2; ++s) {
-        const LaneBlocks lanes(sides[s]);
+        model_.flux->jacobian(in, *b, s, side);
+        const LaneBlocks lanes(side);
         for (int i = 0; i < b->count; ++i) jacobian.add_face(first + i, s, lanes.block[i], scale);
       }
     }
@@ -69,30 +73,33 @@ void EulerOperator::first_order_jacobian(Vec q, const Frames& frames, double sca
 
 void EulerOperator::interface_jacobian(Vec q, const Frames& frames, double scale, const ZoneTurn& turn,
                                        std::vector<InterfaceBlock>& result) {
-  typedef Eigen::Matrix<double, kVariables, kVariables> Block;
+  typedef Eigen::Matrix<float, kVariables, kVariables> Block;
   load_cells(q, frames);
+  round_state();
   result.clear();
   const auto& interfaces = sliding_.faces(frames);
   for (size_t i = 0; i < interfaces.size(); ++i) {
     const FaceInput in = face_input(frames[sliding_.frame_zone(i)]);
     Block back[2] = {Block::Identity(), Block::Identity()}, forth[2] = {Block::Identity(), Block::Identity()};
     for (int s = 0; s < 2 && !turn.none(); ++s) {
-      back[s].block<3, 3>(1, 1) = turn.back(sliding_.zones(i)[s]);
-      forth[s].block<3, 3>(1, 1) = turn.forth(sliding_.zones(i)[s]);
+      back[s].block<3, 3>(1, 1) = turn.back(sliding_.zones(i)[s]).cast<float>();
+      forth[s].block<3, 3>(1, 1) = turn.forth(sliding_.zones(i)[s]).cast<float>();
     }
-    BlockPack sides[2];
-    for (const FaceBlock& b : interfaces[i].blocks) {
-      model_.flux->jacobian(in, b, sides);
+    BlockPackOf<float> side;
+    for (const FaceBlock& b : interfaces[i].blocks)
       for (int column = 0; column < 2; ++column) {
         const int row = 1 - column;
-        const LaneBlocks lanes(sides[column]);
+        const auto is_own = [&](int c) { return c < mesh_.n_owned; };
+        if (std::none_of(b.cell[row], b.cell[row] + b.count, is_own)) continue;
+        model_.flux->jacobian_single(in, b, column, side);
+        const LaneBlocks lanes(side);
+        const Block to = static_cast<float>(row == 0 ? scale : -scale) * back[row];
         for (int k = 0; k < b.count; ++k) {
-          if (b.cell[row][k] >= mesh_.n_owned) continue;
-          const Block block = (row == 0 ? scale : -scale) * back[row] * Block::Map(lanes.block[k]) * forth[column];
-          result.push_back({b.cell[row][k], b.cell[column][k], block.cast<float>()});
+          if (!is_own(b.cell[row][k])) continue;
+          InterfaceBlock& entry = result.emplace_back(b.cell[row][k], b.cell[column][k]);
+          Block::Map(entry.block) = to * Block::Map(lanes.block[k]) * forth[column];
         }
       }
-    }
   }
 }
 

@@ -48,7 +48,7 @@ std::vector<PatchFlux> EulerOperator::patch_fluxes(Vec q, const Frames& frames) 
     PatchFlux& sum = sums[p];
     for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
       const State<Pack> states = kBoundaryKernels.state[r](in, kind, *b);
-      const FaceGeometry face = face_geometry(in, *b);
+      const auto face = face_geometry<Pack>(in, *b);
       const Flux<Pack> flux = face.area * physical_flux(states, face.normal, in.gamma);
       for (int i = 0; i < b->count; ++i) {
         sum.flux = sum.flux + Flux<double>{flux.mass[i], flux.x[i], flux.y[i], flux.z[i], flux.energy[i]};
@@ -90,7 +90,7 @@ std::vector<double> EulerOperator::spectral_radii(Vec q, const Frames& frames) {
   std::vector<double> radii(rates_.size(), 0.0);
   const auto add = [&](const FaceInput& in, const FaceBlock* blocks, int n, int sides) {
     for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
-      const FaceGeometry face = face_geometry(in, *b);
+      const auto face = face_geometry<Pack>(in, *b);
       for (int side = 0; side < sides; ++side) {
         const State<Pack> s = face_side<Reconstruction::first_order, Pack>(in, *b, side).state;
         const Pack speed =

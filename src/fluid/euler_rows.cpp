@@ -27,17 +27,17 @@ struct Eight {
 };
 
 /// Eight items of N numbers each as columns, of which the first N mean something.
-template <int N>
-inline void load_columns(const Eight<N>& items, Pack columns[8]) {
-  Pack rows[8];
-  for (int j = 0; j < 8; ++j) rows[j] = Pack::load_unaligned(items.first + N * j);
+template <int N, class Number>
+inline void load_columns(const Eight<N>& items, PackOf<Number> columns[8]) {
+  PackOf<Number> rows[8];
+  for (int j = 0; j < 8; ++j) rows[j] = rounded_to<Number>(Pack::load_unaligned(items.first + N * j));
   transpose(rows, columns);
 }
 
 /// M², squared speed relative to the moving cell over the speed of sound squared, led smoothly to its bound of 1:
 /// a kink there stalls Newton's method in transonic flow.
-template <class T>
-T bounded_mach_squared(const State<T>& s, const Register grid[3], double gamma) {
+template <class T, class G>
+T bounded_mach_squared(const State<T>& s, const G grid[3], double gamma) {
   using std::sqrt;
   const T u = s.u - grid[0], v = s.v - grid[1], w = s.w - grid[2];
   const T m2 = (u * u + v * v + w * w) * s.rho * reciprocal(gamma * s.p), m4 = m2 * m2;
@@ -53,19 +53,21 @@ struct GridVelocity {
     for (int k = 0; k < 3; ++k) spin.col(k) = f.omega.cross(f.R.col(k));
   }
   /// At eight points.
-  void at(const Eight<3>& r, Pack out[3]) const {
-    Pack x[8];
+  template <class Number>
+  void at(const Eight<3>& r, PackOf<Number> out[3]) const {
+    PackOf<Number> x[8];
     load_columns(r, x);
     for (int i = 0; i < 3; ++i) out[i] = V[i] + spin(i, 0) * x[0] + spin(i, 1) * x[1] + spin(i, 2) * x[2];
   }
 };
 
 /// A state and its change when the conserved variables change so.
-State<Dual<Pack>> with_derivative(const State<Pack>& s, const Pack change[kVariables], double gamma) {
-  const Pack inverse = reciprocal(s.rho), &d_rho = change[0];
-  const Pack d_kinetic = s.u * change[1] + s.v * change[2] + s.w * change[3] - 0.5 * d_rho * speed_squared(s);
-  const auto speed = [&](const Pack& u, const Pack& d_momentum) {
-    return Dual<Pack>(u, (d_momentum - u * d_rho) * inverse);
+template <class P>
+State<Dual<P>> with_derivative(const State<P>& s, const P change[kVariables], double gamma) {
+  const P inverse = reciprocal(s.rho), &d_rho = change[0];
+  const P d_kinetic = s.u * change[1] + s.v * change[2] + s.w * change[3] - 0.5 * d_rho * speed_squared(s);
+  const auto speed = [&](const P& u, const P& d_momentum) {
+    return Dual<P>(u, (d_momentum - u * d_rho) * inverse);
   };
   return {{s.rho, d_rho},
           speed(s.u, change[1]),
@@ -74,9 +76,10 @@ State<Dual<Pack>> with_derivative(const State<Pack>& s, const Pack change[kVaria
           {s.p, (gamma - 1.0) * (change[4] - d_kinetic)}};
 }
 
-void store_rows(const State<Pack>& s, const Pack& mach_squared, int count, Row* out) {
-  const Pack columns[8] = {s.rho, s.u, s.v, s.w, s.p, mach_squared, 0.0, 0.0};
-  Pack rows[8];
+template <class Number>
+void store_rows(const State<PackOf<Number>>& s, const PackOf<Number>& mach_squared, int count, RowOf<Number>* out) {
+  const PackOf<Number> columns[8] = {s.rho, s.u, s.v, s.w, s.p, mach_squared, 0.0, 0.0};
+  PackOf<Number> rows[8];
   transpose(columns, rows);
   for (int j = 0; j < count; ++j) rows[j].store(out[j].v);
 }
@@ -85,11 +88,11 @@ void store_rows(const State<Pack>& s, const Pack& mach_squared, int count, Row* 
 
 /// The relative Mach numbers of eight cells where fluxes ask for them, else a constant.
 template <class T>
-T EulerOperator::mach_column(const State<T>& s, const Pack grid[3]) const {
+T EulerOperator::mach_column(const State<T>& s, const PackFor<T> grid[3]) const {
   T column(1.0);
   if (model_.low_mach || model_.flux->needs_mach)
-    for (int i = 0; i < Pack::kParts; ++i) {
-      const Register velocity[3] = {part(grid[0], i), part(grid[1], i), part(grid[2], i)};
+    for (int i = 0; i < PackFor<T>::kParts; ++i) {
+      const typename RegisterOf<PackFor<T>>::type velocity[3] = {part(grid[0], i), part(grid[1], i), part(grid[2], i)};
       set_part(column, i, bounded_mach_squared(part(s, i), velocity, model_.gamma));
     }
   return column;
@@ -97,7 +100,7 @@ T EulerOperator::mach_column(const State<T>& s, const Pack grid[3]) const {
 
 void EulerOperator::fill_cells(Vec q, const Frames& frames) {
   held_.content = {};
-  held_.rate = false;
+  held_.rate = held_.single = false;
   const double* values = nullptr;
   petsc(VecGetArrayRead(q, &values));
   for (size_t z = 0; z < frames.size(); ++z) {
@@ -108,14 +111,17 @@ void EulerOperator::fill_cells(Vec q, const Frames& frames) {
       grid_velocity.at(Eight<3>(mesh_.centroid[c].data(), left), grid);
       load_columns(Eight<5>(values + 5 * c, left), columns);
       const State<Pack> s = primitive(columns, model_.gamma);
-      store_rows(s, mach_column(s, grid), std::min<int>(8, zone_cells_[z].end - c), &cells_[c]);
+      store_rows(s, mach_column(s, grid), std::min<int>(8, zone_cells_[z].end - c), &state_.cells[c]);
     }
   }
   petsc(VecRestoreArrayRead(q, &values));
 }
 
 /// Fills own rows of the derivative along dq; `turn` leads from the axes of dq.
-void EulerOperator::fill_derivatives(Vec dq, const ZoneTurn& turn) {
+template <class Number>
+void EulerOperator::fill_derivatives(Vec dq, const ZoneTurn& turn, const CellFields<Number>& state,
+                                     CellFields<Number>& derivative) {
+  using P = PackOf<Number>;
   const double* derivatives = nullptr;
   petsc(VecGetArrayRead(dq, &derivatives));
   for (size_t z = 0; z < held_.frames.size(); ++z) {
@@ -123,51 +129,85 @@ void EulerOperator::fill_derivatives(Vec dq, const ZoneTurn& turn) {
     for (mesh::Index c = zone_cells_[z].begin; c < zone_cells_[z].end; c += 8) {
       const mesh::Index left = mesh_.n_owned - c;
       const int count = std::min<int>(8, zone_cells_[z].end - c);
-      Pack grid[3], along[8], rows[8], columns[8];
+      P grid[3], along[8], rows[8], columns[8];
       grid_velocity.at(Eight<3>(mesh_.centroid[c].data(), left), grid);
       load_columns(Eight<5>(derivatives + 5 * c, left), along);
       if (!turn.none()) {
         const Mat3& R = turn.forth(z);
-        const Pack m[3] = {along[1], along[2], along[3]};
+        const P m[3] = {along[1], along[2], along[3]};
         for (int i = 0; i < 3; ++i) along[1 + i] = R(i, 0) * m[0] + R(i, 1) * m[1] + R(i, 2) * m[2];
       }
-      for (int i = 0; i < 8; ++i) rows[i] = Pack::load(cells_[c + std::min(i, count - 1)].v);
+      for (int i = 0; i < 8; ++i) rows[i] = P::load(state.cells[c + std::min(i, count - 1)].v);
       transpose(rows, columns);
-      const State<Dual<Pack>> s =
-          with_derivative({columns[0], columns[1], columns[2], columns[3], columns[4]}, along, model_.gamma);
-      store_rows({s.rho.d, s.u.d, s.v.d, s.w.d, s.p.d}, mach_column(s, grid).d, count, &d_cells_[c]);
+      const State<Dual<P>> s =
+          with_derivative<P>({columns[0], columns[1], columns[2], columns[3], columns[4]}, along, model_.gamma);
+      store_rows<Number>({s.rho.d, s.u.d, s.v.d, s.w.d, s.p.d}, mach_column(s, grid).d, count, &derivative.cells[c]);
     }
   }
   petsc(VecRestoreArrayRead(dq, &derivatives));
 }
 
-void EulerOperator::exchange_halo(std::vector<Row>& rows) const {
-  petsc(PetscSFBcastBegin(mesh_.halo, row_type_, rows.data(), rows.data(), MPI_REPLACE));
-  petsc(PetscSFBcastEnd(mesh_.halo, row_type_, rows.data(), rows.data(), MPI_REPLACE));
+template void EulerOperator::fill_derivatives(Vec, const ZoneTurn&, const CellFields<double>&, CellFields<double>&);
+template void EulerOperator::fill_derivatives(Vec, const ZoneTurn&, const CellFields<float>&, CellFields<float>&);
+
+/// state_single_ becomes the state that is held.
+void EulerOperator::round_state() {
+  if (held_.single) return;
+  if (state_single_.cells.empty()) state_single_.resize(state_.cells.size(), state_.gradients.size());
+  const auto round = [](const auto& from, auto& to) {
+    for (size_t i = 0; i < from.size(); ++i)
+      for (size_t k = 0; k < std::size(from[i].v); k += 8)
+        rounded_to<float>(Pack::load(from[i].v + k)).store(to[i].v + k);
+  };
+  round(state_.cells, state_single_.cells);
+  round(state_.gradients, state_single_.gradients);
+  held_.single = true;
 }
 
-void EulerOperator::update_gradients(const std::vector<Row>& rows, std::vector<GradientRow>& gradients) const {
-  if (green_gauss_) green_gauss_->apply(rows.data(), gradients.data());
-  if (least_squares_) least_squares_->apply(rows.data(), gradients.data());
+template <class Number>
+void EulerOperator::exchange_halo(CellFields<Number>& fields) const {
+  const MpiType& row = std::get<RowTypes<Number>>(types_).row;
+  petsc(PetscSFBcastBegin(mesh_.halo, row, fields.cells.data(), fields.cells.data(), MPI_REPLACE));
+  petsc(PetscSFBcastEnd(mesh_.halo, row, fields.cells.data(), fields.cells.data(), MPI_REPLACE));
 }
 
-void EulerOperator::begin_interfaces(std::vector<Row>& rows, std::vector<GradientRow>& gradients) const {
-  sliding_.begin_exchange(rows.data(), row_type_);
-  if (!gradients.empty()) sliding_.begin_exchange(gradients.data(), gradient_type_);
+template <class Number>
+void EulerOperator::update_gradients(CellFields<Number>& fields) const {
+  if (green_gauss_) green_gauss_->apply(fields.cells.data(), fields.gradients.data());
+  if (least_squares_) least_squares_->apply(fields.cells.data(), fields.gradients.data());
 }
 
-void EulerOperator::end_interfaces(std::vector<Row>& rows, std::vector<GradientRow>& gradients) const {
-  sliding_.end_exchange(rows.data(), row_type_);
-  if (!gradients.empty()) sliding_.end_exchange(gradients.data(), gradient_type_);
+template <class Number>
+void EulerOperator::begin_interfaces(CellFields<Number>& fields) const {
+  const auto& types = std::get<RowTypes<Number>>(types_);
+  sliding_.begin_exchange(fields.cells.data(), types.row);
+  if (!fields.gradients.empty()) sliding_.begin_exchange(fields.gradients.data(), types.gradient);
 }
+
+template <class Number>
+void EulerOperator::end_interfaces(CellFields<Number>& fields) const {
+  const auto& types = std::get<RowTypes<Number>>(types_);
+  sliding_.end_exchange(fields.cells.data(), types.row);
+  if (!fields.gradients.empty()) sliding_.end_exchange(fields.gradients.data(), types.gradient);
+}
+
+#define WINDHOVER_FIELDS_OF(Number)                                               \
+  template void EulerOperator::exchange_halo(CellFields<Number>&) const;          \
+  template void EulerOperator::update_gradients(CellFields<Number>&) const;       \
+  template void EulerOperator::begin_interfaces(CellFields<Number>&) const;       \
+  template void EulerOperator::end_interfaces(CellFields<Number>&) const;
+WINDHOVER_FIELDS_OF(double)
+WINDHOVER_FIELDS_OF(float)
+#undef WINDHOVER_FIELDS_OF
 
 /// Rows of q, also of other ranks' cells at interfaces.
 void EulerOperator::load_cells(Vec q, const Frames& frames) {
   if (holds(q, frames)) return;
   fill_cells(q, frames);
-  exchange_halo(cells_);
-  sliding_.begin_exchange(cells_.data(), row_type_);
-  sliding_.end_exchange(cells_.data(), row_type_);
+  exchange_halo(state_);
+  const MpiType& row = std::get<RowTypes<double>>(types_).row;
+  sliding_.begin_exchange(state_.cells.data(), row);
+  sliding_.end_exchange(state_.cells.data(), row);
 }
 
 }  // namespace windhover::fluid

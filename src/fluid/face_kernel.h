@@ -1,8 +1,9 @@
 // What happens on eight faces: reconstruction from both sides, flux, and the sum into the cells.
-// Cells are rows of eight doubles (rho, u, v, w, p, Mach², 0, 0), one cache line; a face works on whole rows,
+// Cells are rows of eight numbers (rho, u, v, w, p, Mach², 0, 0), of doubles one cache line; a face works on whole rows,
 // the flux on columns of eight faces.
 #pragma once
 #include <array>
+#include <limits>
 
 #include "base/dual.h"
 #include "fluid/boundary.h"
@@ -11,29 +12,42 @@
 
 namespace windhover::fluid {
 
-struct alignas(64) Row {
-  double v[8];
+template <class Number>
+struct alignas(8 * sizeof(Number)) RowOf {
+  Number v[8];
 };
+using Row = RowOf<double>;
 inline constexpr int kMach = 5;  ///< column of the cell's relative Mach number squared, at most 1
 
-/// The three derivatives (zone axes) of the five variables, one after the other in two cache lines.
-struct alignas(64) GradientRow {
-  double v[16];
+/// The three derivatives (zone axes) of the five variables, one after the other in cache lines.
+template <class Number>
+struct alignas(64) GradientRowOf {
+  Number v[16];
 
-  double at(int direction, int variable) const { return v[5 * direction + variable]; }
-  void store(const Pack g[3]) { store_fives(g[0], g[1], g[2], v); }
+  Number at(int direction, int variable) const { return v[5 * direction + variable]; }
+  void store(const PackOf<Number> g[3]) { store_fives(g[0], g[1], g[2], v); }
   /// The change of the variables along an arm; what is in the columns after them means nothing.
-  Pack along(const double* arm) const { return window<0>(v) * arm[0] + window<5>(v) * arm[1] + window<10>(v) * arm[2]; }
+  PackOf<Number> along(const double* arm) const {
+    return window<0>(v) * arm[0] + window<5>(v) * arm[1] + window<10>(v) * arm[2];
+  }
+};
+using GradientRow = GradientRowOf<double>;
+
+/// What faces read of cells on both sides. Derivative fields (d...) are used by linearised kernels only.
+template <class Number>
+struct CellRows {
+  const RowOf<Number>* cells = nullptr;
+  const GradientRowOf<Number>* gradients = nullptr;
+  const RowOf<Number>* d_cells = nullptr;
+  const GradientRowOf<Number>* d_gradients = nullptr;
 };
 
 enum class Reconstruction { first_order, linear, limited };
 
-/// Everything a kernel reads besides the faces. Derivative fields (d...) are used by linearised kernels only.
+/// Everything a kernel reads besides the faces.
 struct FaceInput {
-  const Row* cells = nullptr;
-  const GradientRow* gradients = nullptr;
-  const Row* d_cells = nullptr;
-  const GradientRow* d_gradients = nullptr;
+  CellRows<double> rows;
+  CellRows<float> rows_single;
   double rotation[9];          ///< zone axes to inertial axes, row-major
   double velocity[3];          ///< of the zone's origin, in zone axes
   double angular_velocity[3];  ///< of the zone, in zone axes
@@ -41,21 +55,48 @@ struct FaceInput {
   double limiter_threshold = 0;  ///< squared difference below which nothing is limited
   State<double> far{};
   double damping = 0;  ///< speed that assembled blocks add to that of each wave in the dissipation
+
+  template <class Number>
+  const CellRows<Number>& rows_of() const {
+    if constexpr (std::is_same_v<Number, double>)
+      return rows;
+    else
+      return rows_single;
+  }
 };
 
+/// The number type of a kernel's scalar, PackOf<Number> or Dual of it.
+template <class T>
+struct NumberOf;
+template <class Number>
+struct NumberOf<PackOf<Number>> {
+  typedef Number type;
+};
+template <class Number>
+struct NumberOf<Dual<PackOf<Number>>> {
+  typedef Number type;
+};
+/// What has no derivative, beside T.
+template <class T>
+using PackFor = PackOf<typename NumberOf<T>::type>;
+
+template <class P>
 struct FaceGeometry {
-  FaceNormal<Pack> normal;
-  Pack area;
+  FaceNormal<P> normal;
+  P area;
 };
 
-inline FaceGeometry face_geometry(const FaceInput& in, const mesh::FaceBlock& b) {
-  Pack a[3], m[3];
-  for (int k = 0; k < 3; ++k) a[k] = Pack::load(b.area[k]), m[k] = Pack::load(b.moment[k]);
-  const Pack swept = in.velocity[0] * a[0] + in.velocity[1] * a[1] + in.velocity[2] * a[2] +
+template <class P>
+FaceGeometry<P> face_geometry(const FaceInput& in, const mesh::FaceBlock& b) {
+  using Number = typename NumberOf<P>::type;
+  P a[3], m[3];
+  for (int k = 0; k < 3; ++k)
+    a[k] = rounded_to<Number>(Pack::load(b.area[k])), m[k] = rounded_to<Number>(Pack::load(b.moment[k]));
+  const P swept = in.velocity[0] * a[0] + in.velocity[1] * a[1] + in.velocity[2] * a[2] +
                      in.angular_velocity[0] * m[0] + in.angular_velocity[1] * m[1] + in.angular_velocity[2] * m[2];
-  const Pack squared = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
-  const Pack inverse = inverse_sqrt(maximum(squared, Pack(1e-200)));  // padding has no area
-  Pack n[3];
+  const P squared = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+  const P inverse = inverse_sqrt(maximum(squared, P(std::numeric_limits<Number>::min())));  // padding has no area
+  P n[3];
   for (int i = 0; i < 3; ++i)
     n[i] = inverse * (in.rotation[3 * i] * a[0] + in.rotation[3 * i + 1] * a[1] + in.rotation[3 * i + 2] * a[2]);
   return {{n[0], n[1], n[2], inverse * swept}, squared * inverse};
@@ -78,9 +119,12 @@ std::array<T, 2> limited_fractions(const T& slope_l, const T& slope_r, const T& 
 }
 
 /// The change of a row along an arm; the Mach number is not reconstructed.
-inline Pack change(const GradientRow& g, const double* arm) { return first_lanes<kVariables>(g.along(arm)); }
+template <class Number>
+PackOf<Number> change(const GradientRowOf<Number>& g, const double* arm) {
+  return first_lanes<kVariables>(g.along(arm));
+}
 
-/// States of one side of a block, as columns; T is Pack or Dual<Pack>.
+/// States of one side of a block, as columns; T is PackOf<Number> or Dual of it.
 template <class T>
 struct Side {
   State<T> state;
@@ -90,23 +134,29 @@ struct Side {
 template <class T>
 struct Rows;  // access to value rows, or to value and derivative rows
 
-template <>
-struct Rows<Pack> {
-  static Pack cell(const FaceInput& in, int c) { return Pack::load(in.cells[c].v); }
-  static Pack slope(const FaceInput& in, int c, const double* arm) { return change(in.gradients[c], arm); }
-  static void columns(const Pack rows[8], Pack out[8]) { transpose(rows, out); }
+template <class Number>
+struct Rows<PackOf<Number>> {
+  using P = PackOf<Number>;
+  static P cell(const FaceInput& in, int c) { return P::load(in.rows_of<Number>().cells[c].v); }
+  static P slope(const FaceInput& in, int c, const double* arm) {
+    return change(in.rows_of<Number>().gradients[c], arm);
+  }
+  static void columns(const P rows[8], P out[8]) { transpose(rows, out); }
 };
 
-template <>
-struct Rows<Dual<Pack>> {
-  static Dual<Pack> cell(const FaceInput& in, int c) {
-    return {Pack::load(in.cells[c].v), Pack::load(in.d_cells[c].v)};
+template <class Number>
+struct Rows<Dual<PackOf<Number>>> {
+  using P = PackOf<Number>;
+  static Dual<P> cell(const FaceInput& in, int c) {
+    const auto& rows = in.rows_of<Number>();
+    return {P::load(rows.cells[c].v), P::load(rows.d_cells[c].v)};
   }
-  static Dual<Pack> slope(const FaceInput& in, int c, const double* arm) {
-    return {change(in.gradients[c], arm), change(in.d_gradients[c], arm)};
+  static Dual<P> slope(const FaceInput& in, int c, const double* arm) {
+    const auto& rows = in.rows_of<Number>();
+    return {change(rows.gradients[c], arm), change(rows.d_gradients[c], arm)};
   }
-  static void columns(const Dual<Pack> rows[8], Dual<Pack> out[8]) {
-    Pack part[8], turned[8];
+  static void columns(const Dual<P> rows[8], Dual<P> out[8]) {
+    P part[8], turned[8];
     for (int i = 0; i < 8; ++i) part[i] = rows[i].v;
     transpose(part, turned);
     for (int i = 0; i < 8; ++i) out[i].v = turned[i], part[i] = rows[i].d;
@@ -118,9 +168,12 @@ struct Rows<Dual<Pack>> {
 /// Extrapolation leaves density and pressure at least a tenth of the cell's own.
 template <class T>
 T least_row(const T& own) {
-  alignas(64) static constexpr double share[8] = {0.1, 0, 0, 0, 0.1, 0, 0, 0};
-  alignas(64) static constexpr double offset[8] = {0, -1e300, -1e300, -1e300, 0, -1e300, -1e300, -1e300};
-  return own * Pack::load(share) + Pack::load(offset);
+  using P = PackFor<T>;
+  using Number = typename NumberOf<T>::type;
+  constexpr Number any = -0.1 * std::numeric_limits<Number>::max();
+  alignas(64) static constexpr Number share[8] = {Number(0.1), 0, 0, 0, Number(0.1), 0, 0, 0};
+  alignas(64) static constexpr Number offset[8] = {0, any, any, any, 0, any, any, any};
+  return own * P::load(share) + P::load(offset);
 }
 
 /// The state of cell `side` of lane i, taken to the face without a limiter.
@@ -182,13 +235,19 @@ T face_mach(const T& l, const T& r) {
 }
 
 /// The part of a result that is summed: the value, or in linearised kernels the derivative.
-inline Pack result(const Pack& x) { return x; }
-inline Pack result(const Dual<Pack>& x) { return x.d; }
+template <class Number>
+const PackOf<Number>& result(const PackOf<Number>& x) {
+  return x;
+}
+template <class P>
+const P& result(const Dual<P>& x) {
+  return x.d;
+}
 
-template <class T>
-void flux_rows(const Flux<T>& f, const Pack& area, Pack rows[8]) {
-  const Pack columns[8] = {area * result(f.mass),   area * result(f.x), area * result(f.y), area * result(f.z),
-                           area * result(f.energy), Pack(0.0),          Pack(0.0),          Pack(0.0)};
+template <class T, class P>
+void flux_rows(const Flux<T>& f, const P& area, P rows[8]) {
+  const P columns[8] = {area * result(f.mass),   area * result(f.x), area * result(f.y), area * result(f.z),
+                        area * result(f.energy), P(0.0),             P(0.0),             P(0.0)};
   transpose(columns, rows);
 }
 
@@ -196,7 +255,9 @@ void flux_rows(const Flux<T>& f, const Pack& area, Pack rows[8]) {
 /// next block's cells, which are scattered in memory. The processor's own prefetching finds neither in time.
 template <Reconstruction R, class T>
 void prefetch(const FaceInput& in, const mesh::FaceBlock* blocks, int left, const Row* rates) {
-  constexpr bool dual = !std::is_same_v<T, Pack>;
+  constexpr bool dual = !std::is_same_v<T, PackFor<T>>;
+  using Number = typename NumberOf<T>::type;
+  const CellRows<Number>& rows = in.rows_of<Number>();
   constexpr int kDoubles = sizeof(mesh::FaceBlock) / sizeof(double);
   if (left > 3)
     for (int k = 0; k < kDoubles; k += 8) __builtin_prefetch(reinterpret_cast<const double*>(blocks + 3) + k);
@@ -205,22 +266,22 @@ void prefetch(const FaceInput& in, const mesh::FaceBlock* blocks, int left, cons
   for (int side = 0; side < 2; ++side)
     for (int i = 0; i < mesh::kLanes; ++i) {
       const int c = b.cell[side][i];
-      __builtin_prefetch(&in.cells[c]);
+      __builtin_prefetch(&rows.cells[c]);
       __builtin_prefetch(&rates[c], 1);
-      if constexpr (dual) __builtin_prefetch(&in.d_cells[c]);
+      if constexpr (dual) __builtin_prefetch(&rows.d_cells[c]);
       if constexpr (R != Reconstruction::first_order)
-        for (int half = 0; half < 16; half += 8) {
-          __builtin_prefetch(in.gradients[c].v + half);
-          if constexpr (dual) __builtin_prefetch(in.d_gradients[c].v + half);
+        for (size_t k = 0; k < 16; k += 64 / sizeof(Number)) {
+          __builtin_prefetch(rows.gradients[c].v + k);
+          if constexpr (dual) __builtin_prefetch(rows.d_gradients[c].v + k);
         }
     }
 }
 
 /// A flux of eight faces, as many at a time as one register takes: eight at once would be more values than registers.
 template <class FluxScheme, class T>
-Flux<T> flux_of(const State<T>& l, const State<T>& r, const FaceNormal<Pack>& n, const T& mach, double gamma) {
+Flux<T> flux_of(const State<T>& l, const State<T>& r, const FaceNormal<PackFor<T>>& n, const T& mach, double gamma) {
   Flux<T> all;
-  for (int i = 0; i < Pack::kParts; ++i) {
+  for (int i = 0; i < PackFor<T>::kParts; ++i) {
     const FaceNormal normal{part(n.x, i), part(n.y, i), part(n.z, i), part(n.grid_speed, i)};
     const auto f = FluxScheme::flux(part(l, i), part(r, i), normal, part(mach, i), gamma);
     set_part(all.mass, i, f.mass), set_part(all.x, i, f.x), set_part(all.y, i, f.y), set_part(all.z, i, f.z);
@@ -229,18 +290,22 @@ Flux<T> flux_of(const State<T>& l, const State<T>& r, const FaceNormal<Pack>& n,
   return all;
 }
 
-inline void add(Row& row, const Pack& x) { (Pack::load(row.v) + x).store(row.v); }
+/// Sums are of doubles always: what leaves a cell through one face comes back through another.
+template <class P>
+void add(Row& row, const P& x) {
+  (Pack::load(row.v) + widened(x)).store(row.v);
+}
 
-/// Interior faces: rates[cell] += what leaves. T = Dual<Pack> gives the derivative along d_cells.
+/// Interior faces: rates[cell] += what leaves. T = Dual<PackOf<Number>> gives the derivative along d_cells.
 template <class FluxScheme, Reconstruction R, class T>
 [[gnu::flatten]] void sum_interior(const FaceInput& in, const mesh::FaceBlock* blocks, int count, Row* rates) {
   for (int k = 0; k < count; ++k) {
     const mesh::FaceBlock& b = blocks[k];
     prefetch<R, T>(in, blocks + k, count - k, rates);
-    const FaceGeometry face = face_geometry(in, b);
+    const auto face = face_geometry<PackFor<T>>(in, b);
     const auto [l, r] = face_sides<R, T>(in, b);
     const T mach = face_mach(l.mach_squared, r.mach_squared);
-    Pack rows[8];
+    PackFor<T> rows[8];
     flux_rows(flux_of<FluxScheme>(l.state, r.state, face.normal, mach, in.gamma), face.area, rows);
     for (int i = 0; i < b.count; ++i) {
       add(rates[b.cell[0][i]], rows[i]);
@@ -250,7 +315,7 @@ template <class FluxScheme, Reconstruction R, class T>
 }
 
 template <class T>
-State<T> boundary_state(BoundaryKind kind, const State<T>& s, const FaceInput& in, const FaceNormal<Pack>& n) {
+State<T> boundary_state(BoundaryKind kind, const State<T>& s, const FaceInput& in, const FaceNormal<PackFor<T>>& n) {
   return kind == BoundaryKind::farfield ? farfield_state(s, in.far, n, in.gamma) : slip_state(s, n);
 }
 
@@ -259,9 +324,9 @@ template <Reconstruction R, class T>
                                    Row* rates) {
   for (int k = 0; k < count; ++k) {
     const mesh::FaceBlock& b = blocks[k];
-    const FaceGeometry face = face_geometry(in, b);
+    const auto face = face_geometry<PackFor<T>>(in, b);
     const State<T> inside = face_side<R, T>(in, b, 0).state;
-    Pack rows[8];
+    PackFor<T> rows[8];
     flux_rows(physical_flux(boundary_state(kind, inside, in, face.normal), face.normal, in.gamma), face.area, rows);
     for (int i = 0; i < b.count; ++i) add(rates[b.cell[0][i]], rows[i]);
   }

@@ -82,7 +82,6 @@ NodeCells collect_node_cells(const Mesh& m) {
 GreenGauss::GreenGauss(const Mesh& m) {
   NodeCells nodes = collect_node_cells(m);
   const int n_nodes = static_cast<int>(nodes.start.size()) - 1;
-  node_rows_.resize(n_nodes);
   node_weight_.resize(nodes.cell.size());
   std::vector<Vec3> mean_shift(n_nodes, Vec3::Zero());  // weighted mean of cell centroids, from the node
   for (int i = 0; i < n_nodes; ++i) {
@@ -123,40 +122,47 @@ GreenGauss::GreenGauss(const Mesh& m) {
   node_cell_ = std::move(nodes.cell);
   use_large_pages(node_cell_);
   use_large_pages(node_weight_);
-  use_large_pages(node_rows_);
   use_large_pages(cell_node_);
   use_large_pages(coefficient_);
   if (!ill_conditioned.empty()) exceptions_.emplace(m, std::move(ill_conditioned));
 }
 
-void GreenGauss::apply(const Row* cells, GradientRow* gradients) const {
+template <class Number>
+void GreenGauss::apply(const RowOf<Number>* cells, GradientRowOf<Number>* gradients) const {
+  using P = PackOf<Number>;
   constexpr int kEntriesAhead = 64, kCellsAhead = 12;  // asked for before they are needed
   const int last_entry = static_cast<int>(node_cell_.size()) - 1;
-  const int n_nodes = static_cast<int>(node_rows_.size());
+  const int n_nodes = static_cast<int>(node_start_.size()) - 1;
+  auto& node_rows = std::get<NodeRows<Number>>(node_rows_);
+  if (node_rows.empty()) {
+    node_rows.resize(n_nodes);
+    use_large_pages(node_rows);
+  }
   for (int i = 0; i < n_nodes; ++i) {
-    Pack sum(0.0);
+    P sum(0.0);
     for (int k = node_start_[i]; k < node_start_[i + 1]; ++k) {
       __builtin_prefetch(&cells[node_cell_[std::min(k + kEntriesAhead, last_entry)]]);
-      sum += node_weight_[k] * Pack::load(cells[node_cell_[k]].v);
+      sum += node_weight_[k] * P::load(cells[node_cell_[k]].v);
     }
-    sum.store(node_rows_[i].v);
+    sum.store(node_rows[i].v);
   }
   const int n_cells = static_cast<int>(cell_start_.size()) - 1;
   for (int c = 0; c < n_cells; ++c) {
     const int ahead = std::min(c + kCellsAhead, n_cells - 1);
-    for (int half = 0; half < 16; half += 8) {
-      __builtin_prefetch(gradients[ahead].v + half, 1);
-      __builtin_prefetch(coefficient_[cell_start_[ahead]].data() + half);
-    }
-    Pack g[3] = {0.0, 0.0, 0.0};
+    for (size_t k = 0; k < 16; k += 64 / sizeof(Number)) __builtin_prefetch(gradients[ahead].v + k, 1);
+    for (int k = 0; k < 16; k += 8) __builtin_prefetch(coefficient_[cell_start_[ahead]].data() + k);
+    P g[3] = {0.0, 0.0, 0.0};
     for (int k = cell_start_[c]; k < cell_start_[c + 1]; ++k) {
-      const Pack row = Pack::load(node_rows_[cell_node_[k]].v);
+      const P row = P::load(node_rows[cell_node_[k]].v);
       for (int d = 0; d < 3; ++d) g[d] += coefficient_[k][d] * row;
     }
     gradients[c].store(g);
   }
   if (exceptions_) exceptions_->apply(cells, gradients);
 }
+
+template void GreenGauss::apply(const RowOf<double>*, GradientRowOf<double>*) const;
+template void GreenGauss::apply(const RowOf<float>*, GradientRowOf<float>*) const;
 
 namespace {
 
@@ -196,16 +202,21 @@ LeastSquares::LeastSquares(const Mesh& m, std::vector<int> cells) : cell_(std::m
   }
 }
 
-void LeastSquares::apply(const Row* cells, GradientRow* gradients) const {
+template <class Number>
+void LeastSquares::apply(const RowOf<Number>* cells, GradientRowOf<Number>* gradients) const {
+  using P = PackOf<Number>;
   for (size_t i = 0; i < cell_.size(); ++i) {
-    const Pack own = Pack::load(cells[cell_[i]].v);
-    Pack g[3] = {0.0, 0.0, 0.0};
+    const P own = P::load(cells[cell_[i]].v);
+    P g[3] = {0.0, 0.0, 0.0};
     for (int k = start_[i]; k < start_[i + 1]; ++k) {
-      const Pack difference = Pack::load(cells[neighbour_[k]].v) - own;
+      const P difference = P::load(cells[neighbour_[k]].v) - own;
       for (int d = 0; d < 3; ++d) g[d] += coefficient_[k][d] * difference;
     }
     gradients[cell_[i]].store(g);
   }
 }
+
+template void LeastSquares::apply(const RowOf<double>*, GradientRowOf<double>*) const;
+template void LeastSquares::apply(const RowOf<float>*, GradientRowOf<float>*) const;
 
 }  // namespace windhover::fluid

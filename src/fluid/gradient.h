@@ -1,6 +1,7 @@
 // Gradients of cell values that are exact for linear fields on any mesh.
 #pragma once
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "fluid/face_kernel.h"
@@ -15,8 +16,10 @@ class LeastSquares {
   explicit LeastSquares(const mesh::Mesh& mesh);
   LeastSquares(const mesh::Mesh& mesh, std::vector<int> cells);
 
-  /// cells: [n_cells] rows, gradients: [n_gradient], in zone axes. A linear map: also takes derivatives of cells.
-  void apply(const Row* cells, GradientRow* gradients) const;
+  /// cells: [n_cells] rows, gradients: [n_gradient], in zone axes. A linear map: also takes derivatives of cells. Number is
+  /// double or float.
+  template <class Number>
+  void apply(const RowOf<Number>* cells, GradientRowOf<Number>* gradients) const;
 
  private:
   std::vector<int> cell_;
@@ -33,7 +36,8 @@ class LeastSquares {
 class GreenGauss {
  public:
   explicit GreenGauss(const mesh::Mesh& mesh);
-  void apply(const Row* cells, GradientRow* gradients) const;
+  template <class Number>
+  void apply(const RowOf<Number>* cells, GradientRowOf<Number>* gradients) const;
 
  private:
   std::vector<int> node_start_;  // of each node used, into the next two
@@ -42,7 +46,9 @@ class GreenGauss {
   std::vector<int> cell_start_;  // of each cell with gradient, into the next two
   std::vector<int> cell_node_;
   std::vector<std::array<double, 3>> coefficient_;
-  mutable std::vector<Row> node_rows_;
+  template <class Number>
+  using NodeRows = std::vector<RowOf<Number>>;
+  mutable std::tuple<NodeRows<double>, NodeRows<float>> node_rows_;  // each from the first time it is needed
   std::optional<LeastSquares> exceptions_;
 };
 

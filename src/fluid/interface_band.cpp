@@ -56,11 +56,11 @@ bool InterfaceBand::factor(const double* blocks) {
 const double* InterfaceBand::right_side(const double* b) {
   double* sum = sum_.data();
   std::copy_n(b, sum_.size(), sum);
-  coupling_.subtract_product([&](mesh::Index c, double* to) { factors_.solve_row(place_[c], five(b, c), to); }, sum);
+  coupling_.subtract_product([&](mesh::Index c, float* to) { factors_.solve_row(place_[c], five(b, c), to); }, sum);
   for (size_t i = 0; i < cells_.size(); ++i) std::copy_n(five(sum, cells_[i]), kVariables, five(b_.data(), i));
   factors_.solve(b_.data(), x_.data());
   for (const mesh::Index c : cells_) std::copy_n(five(b, c), kVariables, five(sum, c));
-  coupling_.subtract_product([&](mesh::Index c, double* to) { std::copy_n(five(x_.data(), place_[c]), kVariables, to); }, sum);
+  coupling_.subtract_product([&](mesh::Index c, float* to) { std::copy_n(five(x_.data(), place_[c]), kVariables, to); }, sum);
   return sum;
 }
 

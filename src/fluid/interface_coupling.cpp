@@ -1,11 +1,13 @@
 #include "fluid/interface_coupling.h"
 
+#include "fluid/five_columns.h"
+
 namespace windhover::fluid {
 
 InterfaceCoupling::InterfaceCoupling(EulerOperator& euler)
     : euler_(euler),
       cells_(euler.sliding_faces().own_cells()),
-      x_(std::make_unique_for_overwrite<double[]>(size_t(kVariables) * euler.sliding_faces().n_cells())) {}
+      x_(std::make_unique_for_overwrite<float[]>(size_t(kVariables) * euler.sliding_faces().n_cells())) {}
 
 void InterfaceCoupling::renew(Vec q, const Frames& frames, double scale, const ZoneTurn& turn) {
   euler_.interface_jacobian(q, frames, scale, turn, blocks_);
@@ -30,9 +32,10 @@ std::vector<mesh::Index> InterfaceCoupling::cells_within(int layers) const {
 void InterfaceCoupling::subtract_product(double* sum) {
   euler_.sliding_faces().begin_exchange(x_.get(), five_);
   euler_.sliding_faces().end_exchange(x_.get(), five_);
-  typedef Eigen::Matrix<double, kVariables, 1> Five;
-  for (const InterfaceBlock& b : blocks_)
-    Five::Map(sum + size_t(kVariables) * b.row) -= b.block.cast<double>() * Five::Map(x_.get() + size_t(kVariables) * b.column);
+  for (const InterfaceBlock& b : blocks_) {
+    const Column product = times(b.block, x_.get() + size_t(kVariables) * b.column);
+    for (int k = 0; k < kVariables; ++k) sum[size_t(kVariables) * b.row + k] -= product[k];
+  }
 }
 
 }  // namespace windhover::fluid

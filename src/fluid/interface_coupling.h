@@ -18,7 +18,7 @@ class InterfaceCoupling {
   void renew(Vec q, const Frames& frames, double scale, const ZoneTurn& turn);
   /// This rank's cells at an interface and so many layers of neighbours, ascending.
   std::vector<mesh::Index> cells_within(int layers) const;
-  /// sum −= C x, five values per owned cell. x is asked for where it counts: at(cell, to) writes the five values of an
+  /// sum −= C x, five values per owned cell. x is asked for where it counts: at(cell, to) writes the five floats of an
   /// owned cell. Collective.
   template <class At>
   void subtract_product(At&& at, double* sum) {
@@ -30,10 +30,10 @@ class InterfaceCoupling {
   void subtract_product(double* sum);
 
   EulerOperator& euler_;
-  MpiType five_{kVariables};
+  MpiType five_{kVariables, MPI_FLOAT};
   std::vector<InterfaceBlock> blocks_;
   std::vector<mesh::Index> cells_;  ///< owned, at an interface
-  std::unique_ptr<double[]> x_;     ///< five per row of SlidingFaces; only those at an interface are ever touched
+  std::unique_ptr<float[]> x_;     ///< five per row of SlidingFaces; only those at an interface are ever touched
 };
 
 }  // namespace windhover::fluid

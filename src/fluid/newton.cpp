@@ -12,6 +12,9 @@ namespace {
 // the flow carries turns round from step to step, and a matrix from before would take it from the wrong side.
 constexpr double kDamping = 0.05;
 
+/// Products in single precision are exact to some 1e-5 of the residual, and taken where it falls by no more than this.
+constexpr double kSinglePrecision = 1e-3;
+
 constexpr double kLeastFraction = 0.2;  // density and pressure keep at least this much of themselves in one update
 
 bool keeps_positive(const double* q, const double* change, double fraction, double gamma) {
@@ -189,7 +192,8 @@ PetscErrorCode NewtonKrylov::multiply(Mat matrix, Vec x, Vec y) {
   return self.guard_.run([&] {
     const ZoneTurn& turned = self.turned_;
     if (self.options_.exact_jacobian) {
-      self.euler_.derivative(x, y, {self.equation_->combination.mass, self.equation_->combination.rate}, turned);
+      self.euler_.derivative(x, y, {self.equation_->combination.mass, self.equation_->combination.rate}, turned,
+                             self.forcing_ >= kSinglePrecision);
       return;
     }
     petsc(VecCopy(x, self.work_));

@@ -93,7 +93,11 @@ bool SlidingFaces::is_ours(size_t i, const mesh::Piece& piece) const {
 InterfaceFaces SlidingFaces::make_faces(size_t i, double angle) const {
   std::vector<mesh::Piece> pieces = interfaces_[i].pieces(angle);
   interfaces_[i].audit(angle, pieces);
-  const auto others = std::stable_partition(pieces.begin(), pieces.end(), [&](const auto& p) { return is_ours(i, p); });
+  const auto is_own = [&](int side, int face) { return interfaces_[i].faces(side)[face].rank == rank_; };
+  // next to each other: what is ours, and what has its own cells on the same side, as what wants one side's derivative needs
+  const auto group = [&](const mesh::Piece& p) { return (is_ours(i, p) ? 0 : 2) + (is_own(0, p.inner) ? 0 : 1); };
+  std::stable_sort(pieces.begin(), pieces.end(), [&](const auto& a, const auto& b) { return group(a) < group(b); });
+  const auto others = std::find_if(pieces.begin(), pieces.end(), [&](const auto& p) { return group(p) >= 2; });
   InterfaceFaces faces;
   const auto append = [&](auto begin, auto end) {
     for (auto piece = begin; piece != end; ++piece) {

@@ -79,4 +79,16 @@ inline double derivative_error(EulerOperator& euler, Vec q, const Frames& frames
   return distance(plus, exact) / norm(exact);
 }
 
+/// What single precision changes in the derivative along random changes, relative to it; never nothing.
+inline double rounding_of_derivative(EulerOperator& euler, Vec q, const Frames& frames) {
+  VecHandle dq = euler.make_vector(), exact = euler.make_vector(), single = euler.make_vector();
+  add_noise(euler, 1.0, dq);
+  euler.linearize(q, frames);
+  euler.derivative(dq, exact);
+  euler.derivative(dq, single, {}, {}, true);
+  const double change = distance(exact, single) / norm(exact);
+  REQUIRE(change > 0);
+  return change;
+}
+
 }  // namespace windhover::fluid

@@ -42,6 +42,7 @@ TEST_CASE("the exact derivative agrees with central differences", "[euler]") {
   const Frames frames = frames_of(s.mesh, tumbling())(0.7);
   const VecHandle q = noisy_state(euler, frames, 0.01);
   CHECK(derivative_error(euler, q, frames) < 1e-6);
+  CHECK(rounding_of_derivative(euler, q, frames) < 1e-6);
 }
 
 TEST_CASE("the assembled Jacobian is the first-order operator's derivative", "[euler]") {

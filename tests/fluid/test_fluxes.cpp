@@ -130,20 +130,23 @@ TEST_CASE("boundary states: walls let nothing through, a far field in equilibriu
   }
 }
 
-TEST_CASE("eight lanes give what one gives", "[flux]") {
+TEMPLATE_TEST_CASE("eight lanes give what one gives", "[flux]", double, float) {
+  using P = PackOf<TestType>;
   std::mt19937 random(6);
   S l[8], r[8];
-  State<Pack> pl, pr;
+  State<P> pl, pr;
   for (int i = 0; i < 8; ++i) {
     l[i] = random_state(random, 0.6), r[i] = random_state(random, 0.6);
     pl.rho.set(i, l[i].rho), pl.u.set(i, l[i].u), pl.v.set(i, l[i].v), pl.w.set(i, l[i].w), pl.p.set(i, l[i].p);
     pr.rho.set(i, r[i].rho), pr.u.set(i, r[i].u), pr.v.set(i, r[i].v), pr.w.set(i, r[i].w), pr.p.set(i, r[i].p);
   }
-  const FaceNormal<Pack> n{0.6, 0.8, 0.0, 0.1};
-  const Flux<Pack> f = Roe::flux(pl, pr, n, Pack(0.5), kGamma);
+  const FaceNormal<P> n{0.6, 0.8, 0.0, 0.1};
+  const Flux<P> f = Roe::flux(pl, pr, n, P(0.5), kGamma);
+  const double tolerance = std::is_same_v<TestType, double> ? 1e-13 : 2e-6;
   for (int i = 0; i < 8; ++i)
-    require_close({f.mass[i], f.x[i], f.y[i], f.z[i], f.energy[i]}, Roe::flux(l[i], r[i], N{0.6, 0.8, 0, 0.1}, 0.5, kGamma));
-  Pack rows[8], back[8];
+    require_close({f.mass[i], f.x[i], f.y[i], f.z[i], f.energy[i]}, Roe::flux(l[i], r[i], N{0.6, 0.8, 0, 0.1}, 0.5, kGamma),
+                  tolerance);
+  P rows[8], back[8];
   for (int i = 0; i < 8; ++i)
     for (int j = 0; j < 8; ++j) rows[i].set(j, 8 * i + j);
   transpose(rows, back);
@@ -151,14 +154,26 @@ TEST_CASE("eight lanes give what one gives", "[flux]") {
     for (int j = 0; j < 8; ++j) CHECK(back[i][j] == 8 * j + i);
 }
 
-TEST_CASE("three rows of five are packed without gaps and found again", "[flux]") {
-  alignas(64) double packed[16] = {};
-  Pack rows[3];
+TEMPLATE_TEST_CASE("three rows of five are packed without gaps and found again", "[flux]", double, float) {
+  using P = PackOf<TestType>;
+  alignas(64) TestType packed[16] = {};
+  P rows[3];
   for (int d = 0; d < 3; ++d)
     for (int k = 0; k < 8; ++k) rows[d].set(k, k < kVariables ? 10 * d + k : -1);
   store_fives(rows[0], rows[1], rows[2], packed);
   for (int i = 0; i < 15; ++i) CHECK(packed[i] == 10 * (i / kVariables) + i % kVariables);
-  const Pack found[3] = {window<0>(packed), window<5>(packed), window<10>(packed)};
+  const P found[3] = {window<0>(packed), window<5>(packed), window<10>(packed)};
   for (int d = 0; d < 3; ++d)
     for (int k = 0; k < 8; ++k) CHECK(first_lanes<kVariables>(found[d])[k] == (k < kVariables ? 10 * d + k : 0));
+}
+
+TEST_CASE("eight doubles become floats, lane by lane, and floats doubles", "[flux]") {
+  Pack x;
+  for (int i = 0; i < 8; ++i) x.set(i, std::exp(i) / 3);
+  const PackOf<float> rounded = rounded_to<float>(x);
+  const Pack back = widened(rounded);
+  for (int i = 0; i < 8; ++i) {
+    CHECK(rounded[i] == static_cast<float>(x[i]));
+    CHECK(back[i] == rounded[i]);
+  }
 }

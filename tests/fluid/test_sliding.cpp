@@ -77,6 +77,7 @@ TEST_CASE("the exact derivative sees across a sliding interface", "[sliding]") {
   set_initial(euler, frames, uniform_state(s.model.far), q);
   add_noise(euler, 0.01, q);
   CHECK(derivative_error(euler, q, frames) < 1e-6);
+  CHECK(rounding_of_derivative(euler, q, frames) < 1e-6);
 }
 
 TEST_CASE("what a residual leaves behind is used for the same state at the same frames, and for no other", "[sliding]") {
@@ -99,15 +100,20 @@ TEST_CASE("what a residual leaves behind is used for the same state at the same 
   };
   keeps.residual(q, frames(0.7), a, {.mass = 2, .rate = 0.5, .known = dq});
   CHECK(same(frames(0.7)));
-  keeps.linearize(q, frames(0.7));
-  keeps.derivative(dq, a);
-  forgets.residual(other, frames(0.7), b);
-  forgets.linearize(q, frames(0.7));
-  forgets.derivative(dq, b);
-  CHECK(distance(a, b, NORM_INFINITY) == 0);
+  const auto same_derivative = [&](const Frames& at, bool single) {
+    keeps.linearize(q, at);
+    keeps.derivative(dq, a, {}, {}, single);
+    forgets.residual(other, at, b);
+    forgets.linearize(q, at);
+    forgets.derivative(dq, b, {}, {}, single);
+    return distance(a, b, NORM_INFINITY) == 0;
+  };
+  CHECK(same_derivative(frames(0.7), false));
+  CHECK(same_derivative(frames(0.7), true));
   CHECK(same(frames(0.8)));
   add_noise(keeps, 0.01, q);
   CHECK(same(frames(0.8)));
+  CHECK(same_derivative(frames(0.8), true));
 }
 
 TEST_CASE("the blocks between zones are what the first-order scheme's derivative sees across the interface", "[sliding]") {
@@ -144,7 +150,7 @@ TEST_CASE("the blocks between zones are what the first-order scheme's derivative
       for (int k = 0; k < kVariables && mesh.cell_zone[c] != from; ++k) size += std::abs(there[kVariables * c + k]);
   };
   add_size(sizes[0]);
-  coupling.subtract_product([&](mesh::Index c, double* to) { std::copy_n(x + kVariables * c, kVariables, to); }, there);
+  coupling.subtract_product([&](mesh::Index c, float* to) { std::copy_n(x + kVariables * c, kVariables, to); }, there);
   add_size(sizes[1]);
   petsc(VecRestoreArray(change, &there));
   petsc(VecRestoreArray(dq, &x));
@@ -170,7 +176,7 @@ double remainder_of(const EulerOperator& euler, const BlockJacobian& a, Interfac
   double* sum = nullptr;
   petsc(VecGetArrayRead(x, &from));
   petsc(VecGetArray(r, &sum));
-  c.subtract_product([&](mesh::Index i, double* to) { std::copy_n(from + kVariables * i, kVariables, to); }, sum);
+  c.subtract_product([&](mesh::Index i, float* to) { std::copy_n(from + kVariables * i, kVariables, to); }, sum);
   petsc(VecRestoreArray(r, &sum));
   petsc(VecRestoreArrayRead(x, &from));
   double remainder = 0, size = 0;
