@@ -91,34 +91,37 @@ bool SlidingFaces::is_ours(size_t i, const mesh::Piece& piece) const {
 }
 
 InterfaceFaces SlidingFaces::make_faces(size_t i, double angle) const {
-  std::vector<mesh::Piece> pieces = interfaces_[i].pieces(angle);
+  const std::vector<mesh::Piece> pieces = interfaces_[i].pieces(angle);
   interfaces_[i].audit(angle, pieces);
   const auto is_own = [&](int side, int face) { return interfaces_[i].faces(side)[face].rank == rank_; };
-  // next to each other: what is ours, and what has its own cells on the same side, as what wants one side's derivative needs
-  const auto group = [&](const mesh::Piece& p) { return (is_ours(i, p) ? 0 : 2) + (is_own(0, p.inner) ? 0 : 1); };
-  std::stable_sort(pieces.begin(), pieces.end(), [&](const auto& a, const auto& b) { return group(a) < group(b); });
-  const auto others = std::find_if(pieces.begin(), pieces.end(), [&](const auto& p) { return group(p) >= 2; });
+  std::vector<char> group;
+  for (const auto& p : pieces) group.push_back((is_ours(i, p) ? 0 : 2) + (is_own(0, p.inner) ? 0 : 1));
   InterfaceFaces faces;
-  const auto append = [&](auto begin, auto end) {
-    for (auto piece = begin; piece != end; ++piece) {
-      if (piece == begin || faces.blocks.back().count == mesh::kLanes) faces.blocks.push_back({});
+  const auto append = [&](int wanted) {
+    bool full = true;
+    for (size_t k = 0; k < pieces.size(); ++k) {
+      if (group[k] != wanted) continue;
+      const mesh::Piece& piece = pieces[k];
+      if (full) faces.blocks.push_back({});
       FaceBlock& b = faces.blocks.back();
       const int lane = b.count++;
-      const int cell[2] = {face_cell_[i][0][piece->inner], face_cell_[i][1][piece->outer]};
+      full = b.count == mesh::kLanes;
+      const int cell[2] = {face_cell_[i][0][piece.inner], face_cell_[i][1][piece.outer]};
       for (int d = 0; d < 3; ++d) {
-        b.area[d][lane] = piece->area[d];
-        b.moment[d][lane] = piece->moment[d];
-        for (int side = 0; side < 2; ++side) b.arm[lane][side][d] = piece->arm[side][d];
+        b.area[d][lane] = piece.area[d];
+        b.moment[d][lane] = piece.moment[d];
+        for (int side = 0; side < 2; ++side) b.arm[lane][side][d] = piece.arm[side][d];
       }
       // padding lanes read the first lane's cells
       for (int side = 0; side < 2; ++side)
         for (int l = lane; l < mesh::kLanes && (l == lane || lane == 0); ++l) b.cell[side][l] = cell[side];
     }
   };
-  faces.blocks.reserve(pieces.size() / mesh::kLanes + 2);
-  append(pieces.begin(), others);
+  faces.blocks.reserve(pieces.size() / mesh::kLanes + 4);
+  // ours first; blocks are of pieces whose own cells are on the same side, since only the other side's derivative is wanted
+  append(0), append(1);
   faces.n_ours = static_cast<int>(faces.blocks.size());
-  append(others, pieces.end());
+  append(2), append(3);
   return faces;
 }
 
