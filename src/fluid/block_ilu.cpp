@@ -1,6 +1,7 @@
 #include "fluid/block_ilu.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -17,14 +18,36 @@ constexpr int kSize = 5, kEntries = kSize * kSize, kPadded = 8;
 
 void store(const Column& c, float* p) { std::memcpy(p, &c, sizeof c); }
 
-/// To nearest; what is not finite does not count, the pivots tell.
-void store(const Column& c, Bfloat16* p) {
-  typedef std::uint32_t Wholes __attribute__((vector_size(32)));
+/// The upper halves of floats, 25 of a block: two columns side by side, row by row, two more, and the last. So one load and
+/// a shift or mask give each of a pair, where the halves of one column alone would have to be spread over a register.
+using Bfloat16 = std::uint16_t;
+typedef std::uint32_t Pairs __attribute__((vector_size(32)));
+
+constexpr int kPair = 2 * kSize;  ///< numbers in a pair of columns
+
+Pairs load_pairs(const Bfloat16* p) {
+  Pairs x;
+  std::memcpy(&x, p, sizeof x);
+  return x;
+}
+Column first_of(const Pairs& x) { return std::bit_cast<Column>(x << 16); }
+Column second_of(const Pairs& x) { return std::bit_cast<Column>(x & 0xffff0000u); }
+Column last_column(const Bfloat16* block) {
   typedef Bfloat16 Halves __attribute__((vector_size(16)));
-  Wholes bits;
-  std::memcpy(&bits, &c, sizeof bits);
-  const Halves halves = __builtin_convertvector((bits + 0x7fff + (bits >> 16 & 1)) >> 16, Halves);
-  std::memcpy(p, &halves, kSize * sizeof(Bfloat16));
+  Halves halves;
+  std::memcpy(&halves, block + 2 * kPair, sizeof halves);
+  return std::bit_cast<Column>(__builtin_convertvector(halves, Pairs) << 16);
+}
+
+/// block · x
+Column times(const Bfloat16* block, const float* x) {
+  const Pairs left = load_pairs(block), right = load_pairs(block + kPair);
+  Column sum = first_of(left) * x[0];
+  sum += second_of(left) * x[1];
+  sum += first_of(right) * x[2];
+  sum += second_of(right) * x[3];
+  sum += last_column(block) * x[4];
+  return sum;
 }
 
 /// Blocks, and room for what is read after the last.
@@ -53,16 +76,30 @@ Column rounded(const double* column) {
   return __builtin_convertvector(wide, Column);
 }
 
+/// To nearest; what is not finite does not count, the pivots tell.
 void pack(const Padded& from, Bfloat16* to) {
-  for (int k = 0; k < kSize; ++k) store(from.column[k], to + kSize * k);
+  Pairs rounded[kSize];
+  for (int k = 0; k < kSize; ++k) {
+    const Pairs bits = std::bit_cast<Pairs>(from.column[k]);
+    rounded[k] = (bits + 0x7fff + (bits >> 16 & 1)) >> 16;
+  }
+  for (int k = 0; k < 2; ++k) {
+    const Pairs pairs = rounded[2 * k] | rounded[2 * k + 1] << 16;
+    std::memcpy(to + kPair * k, &pairs, kPair * sizeof(Bfloat16));
+  }
+  for (int i = 0; i < kSize; ++i) to[2 * kPair + i] = static_cast<Bfloat16>(rounded[kSize - 1][i]);
 }
 
 /// factor · block
 inline Padded times(const Padded& factor, const Bfloat16* block) {
-  float entries[kEntries + kPadded];
-  for (int k = 0; k < kSize; ++k) store(load_column(block + kSize * k), entries + kSize * k);
+  const Pairs left = load_pairs(block), right = load_pairs(block + kPair);
+  const Padded columns = {first_of(left), second_of(left), first_of(right), second_of(right), last_column(block)};
   Padded product;
-  for (int k = 0; k < kSize; ++k) product.column[k] = times(factor, entries + kSize * k);
+  for (int k = 0; k < kSize; ++k) {
+    float entries[kPadded];
+    store(columns.column[k], entries);
+    product.column[k] = times(factor, entries);
+  }
   return product;
 }
 
