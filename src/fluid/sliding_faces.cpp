@@ -90,13 +90,13 @@ bool SlidingFaces::is_ours(size_t i, const mesh::Piece& piece) const {
   return ((piece.inner + piece.outer) % 2 == 0 ? inner : outer) == rank_;
 }
 
-InterfaceFaces SlidingFaces::make_faces(size_t i, double angle) const {
-  const std::vector<mesh::Piece> pieces = interfaces_[i].pieces(angle);
+void SlidingFaces::make_faces(size_t i, double angle, InterfaceFaces& faces) const {
+  const std::vector<mesh::Piece>& pieces = interfaces_[i].pieces(angle);
   interfaces_[i].audit(angle, pieces);
   const auto is_own = [&](int side, int face) { return interfaces_[i].faces(side)[face].rank == rank_; };
   std::vector<char> group;
   for (const auto& p : pieces) group.push_back((is_ours(i, p) ? 0 : 2) + (is_own(0, p.inner) ? 0 : 1));
-  InterfaceFaces faces;
+  faces.blocks.clear();
   const auto append = [&](int wanted) {
     bool full = true;
     for (size_t k = 0; k < pieces.size(); ++k) {
@@ -122,7 +122,6 @@ InterfaceFaces SlidingFaces::make_faces(size_t i, double angle) const {
   append(0), append(1);
   faces.n_ours = static_cast<int>(faces.blocks.size());
   append(2), append(3);
-  return faces;
 }
 
 const std::vector<InterfaceFaces>& SlidingFaces::faces(const Frames& frames) {
@@ -130,11 +129,16 @@ const std::vector<InterfaceFaces>& SlidingFaces::faces(const Frames& frames) {
   for (const auto& interface : interfaces_) angles.push_back(angle(interface, frames));
   for (const Position& p : positions_)
     if (p.angles == angles) return p.faces;
-  Position position{angles, {}};
-  for (size_t i = 0; i < interfaces_.size(); ++i) position.faces.push_back(make_faces(i, angles[i]));
-  positions_.push_back(std::move(position));
   constexpr size_t kept = 3;
-  if (positions_.size() > kept) positions_.pop_front();
+  Position position;
+  if (positions_.size() == kept) {
+    position = std::move(positions_.front());  // its memory serves again
+    positions_.pop_front();
+  }
+  position.angles = angles;
+  position.faces.resize(interfaces_.size());
+  for (size_t i = 0; i < interfaces_.size(); ++i) make_faces(i, angles[i], position.faces[i]);
+  positions_.push_back(std::move(position));
   return positions_.back().faces;
 }
 

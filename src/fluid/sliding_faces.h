@@ -56,7 +56,7 @@ class SlidingFaces {
   void number_cells();
   double angle(const mesh::SlidingInterface& interface, const Frames& frames) const;
   bool is_ours(size_t i, const mesh::Piece& piece) const;
-  InterfaceFaces make_faces(size_t i, double angle) const;
+  void make_faces(size_t i, double angle, InterfaceFaces& faces) const;
 
   const mesh::Mesh& mesh_;
   int rank_;

@@ -1,7 +1,9 @@
 #include "mesh/distribute.h"
 
-#include <petscpartitioner.h>
+#include <petscmat.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "base/mpi_type.h"
@@ -10,36 +12,66 @@
 namespace windhover::mesh {
 namespace {
 
-using PartitionerHandle = Handle<PetscPartitioner, PetscPartitionerDestroy>;
-using SectionHandle = Handle<PetscSection, PetscSectionDestroy>;
+using PartitioningHandle = Handle<MatPartitioning, MatPartitioningDestroy>;
+
+double distance(const FileCell& a, const FileCell& b) {
+  const auto middle = [](const FileCell& cell) {
+    Vec3 sum = Vec3::Zero();
+    for (int i = 0; i < point_count(cell.type); ++i) sum += cell.corners[i].position;
+    return Vec3(sum / point_count(cell.type));
+  };
+  return (middle(a) - middle(b)).norm();
+}
+
+/// The cells as a graph of face neighbours, all rows on rank 0. Edges weigh more where cells are small: what a step couples
+/// strongly should not be cut, since factors do not see across.
+MatHandle neighbour_graph(const std::vector<FileCell>& cells, MPI_Comm comm) {
+  const auto n = static_cast<PetscInt>(cells.size());
+  std::vector<PetscInt> start{0}, neighbours;
+  std::vector<double> length;
+  for (const FileCell& cell : cells) {
+    for (const FileSide& side : cell.sides)
+      if (side.neighbour >= 0) {
+        neighbours.push_back(side.neighbour);
+        length.push_back(distance(cell, cells[side.neighbour]));
+      }
+    start.push_back(static_cast<PetscInt>(neighbours.size()));
+  }
+  std::vector<double> sorted = length;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  if (!sorted.empty()) std::nth_element(sorted.begin(), middle, sorted.end());
+  PetscInt *rows = nullptr, *columns = nullptr, *weights = nullptr;  // the matrix frees them
+  petsc(PetscMalloc1(start.size(), &rows));
+  petsc(PetscMalloc1(neighbours.size(), &columns));
+  petsc(PetscMalloc1(neighbours.size(), &weights));
+  std::copy(start.begin(), start.end(), rows);
+  std::copy(neighbours.begin(), neighbours.end(), columns);
+  for (std::size_t k = 0; k < length.size(); ++k)
+    weights[k] = std::lround(std::clamp(10 * std::sqrt(*middle / length[k]), 1.0, 100.0));
+  PetscInt n_all = n;
+  MPI_Bcast(&n_all, 1, MPIU_INT, 0, comm);
+  MatHandle graph;
+  petsc(MatCreateMPIAdj(comm, n, n_all, rows, columns, weights, graph.out()));
+  return graph;
+}
 
 /// Collective; the result is on rank 0: which rank gets each cell.
 std::vector<int> partition(const std::vector<FileCell>& cells, int n_ranks, MPI_Comm comm) {
-  std::vector<PetscInt> start{0}, neighbours;
-  for (const FileCell& cell : cells) {
-    for (const FileSide& side : cell.sides)
-      if (side.neighbour >= 0) neighbours.push_back(side.neighbour);
-    start.push_back(static_cast<PetscInt>(neighbours.size()));
-  }
+  if (n_ranks == 1) return std::vector<int>(cells.size(), 0);
   setenv("SCOTCH_PTHREAD_NUMBER", "1", 0);  // with threads, each run would get another partition
-  PartitionerHandle partitioner;
-  petsc(PetscPartitionerCreate(comm, partitioner.out()));
-  petsc(PetscPartitionerSetType(partitioner, PETSCPARTITIONERPTSCOTCH));
-  SectionHandle parts;
-  petsc(PetscSectionCreate(comm, parts.out()));
-  IsHandle sorted;
-  petsc(PetscPartitionerPartition(partitioner, n_ranks, static_cast<PetscInt>(cells.size()), start.data(),
-                                  neighbours.data(), nullptr, nullptr, parts, sorted.out()));
-  std::vector<int> rank_of(cells.size());
+  const MatHandle graph = neighbour_graph(cells, comm);
+  PartitioningHandle partitioning;
+  petsc(MatPartitioningCreate(comm, partitioning.out()));
+  petsc(MatPartitioningSetAdjacency(partitioning, graph));
+  petsc(MatPartitioningSetType(partitioning, MATPARTITIONINGPTSCOTCH));
+  petsc(MatPartitioningSetUseEdgeWeights(partitioning, PETSC_TRUE));
+  petsc(MatPartitioningSetNParts(partitioning, n_ranks));
+  IsHandle ranks;
+  petsc(MatPartitioningApply(partitioning, ranks.out()));
   const PetscInt* list = nullptr;
-  petsc(ISGetIndices(sorted, &list));
-  for (int rank = 0; rank < n_ranks; ++rank) {
-    PetscInt count = 0, offset = 0;
-    petsc(PetscSectionGetDof(parts, rank, &count));
-    petsc(PetscSectionGetOffset(parts, rank, &offset));
-    for (PetscInt i = 0; i < count; ++i) rank_of[list[offset + i]] = rank;
-  }
-  petsc(ISRestoreIndices(sorted, &list));
+  petsc(ISGetIndices(ranks, &list));
+  std::vector<int> rank_of(list, list + cells.size());
+  petsc(ISRestoreIndices(ranks, &list));
   return rank_of;
 }
 

@@ -14,7 +14,7 @@ struct MeshPart {
   Index n_owned = 0, n_gradient = 0;
 };
 
-/// Collective. The cells are given on rank 0; divided by PTSCOTCH over the face neighbours.
+/// Collective. The cells are given on rank 0; divided by PTSCOTCH over the face neighbours, where cells are large.
 MeshPart distribute(const std::vector<FileCell>& cells, MPI_Comm comm);
 
 }  // namespace windhover::mesh

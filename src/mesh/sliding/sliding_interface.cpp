@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <numeric>
 
 #include "base/collective.h"
 #include "base/mpi_type.h"
@@ -80,19 +80,20 @@ SlidingInterface::SlidingInterface(const RevolutionSurface& surface, std::array<
   for (const ChartFace& face : sides_[1].charts) outer_in_chart_.push_back(box_in_chart(face.outline));
 }
 
-std::vector<Piece> SlidingInterface::pieces(double angle) const {
+const std::vector<Piece>& SlidingInterface::pieces(double angle) const {
   const long n = static_cast<long>(faces(0).size()), ranks = size_of(comm_);
-  std::vector<Piece> share = cut(angle, static_cast<int>(rank_ * n / ranks), static_cast<int>((rank_ + 1) * n / ranks));
-  if (ranks > 1) share = hand_out(share);
-  return share;
+  cut(angle, static_cast<int>(rank_ * n / ranks), static_cast<int>((rank_ + 1) * n / ranks), share_);
+  if (ranks == 1) return share_;
+  hand_out();
+  return received_;
 }
 
-std::vector<Piece> SlidingInterface::cut(double angle, int begin, int end) const {
+void SlidingInterface::cut(double angle, int begin, int end, std::vector<Piece>& pieces) const {
   constexpr double least = 1e-14;  // of the smaller face: below is round-off of faces that only touch
   angle = std::remainder(angle, 2 * M_PI);
   const double cosine = std::cos(angle), sine = std::sin(angle);
   const auto& [inner, outer] = sides_;
-  std::vector<Piece> pieces;
+  pieces.clear();
   pieces.reserve(6 * static_cast<std::size_t>(end - begin));
   std::vector<int> near;
   Polygon common;
@@ -122,31 +123,29 @@ std::vector<Piece> SlidingInterface::cut(double angle, int begin, int end) const
       pieces.push_back(piece);
     }
   }
-  return pieces;
 }
 
-std::vector<Piece> SlidingInterface::hand_out(std::span<const Piece> share) const {
-  std::vector<std::vector<Piece>> to(size_of(comm_));
-  for (const Piece& piece : share) {
+void SlidingInterface::hand_out() const {
+  const int ranks = size_of(comm_);
+  const auto for_each_receiver = [&](const Piece& piece, auto visit) {
     const int inner = faces(0)[piece.inner].rank, outer = faces(1)[piece.outer].rank;
-    to[inner].push_back(piece);
-    if (outer != inner) to[outer].push_back(piece);
-  }
-  std::vector<Piece> sent;
-  std::vector<int> n_sent, n_received(to.size()), send_at, receive_at;
-  for (const auto& pieces : to) {
-    send_at.push_back(static_cast<int>(sent.size()));
-    n_sent.push_back(static_cast<int>(pieces.size()));
-    sent.insert(sent.end(), pieces.begin(), pieces.end());
-  }
+    visit(inner);
+    if (outer != inner) visit(outer);
+  };
+  std::vector<int> n_sent(ranks), n_received(ranks), send_at(ranks), receive_at(ranks);
+  for (const Piece& piece : share_) for_each_receiver(piece, [&](int to) { ++n_sent[to]; });
   MPI_Alltoall(n_sent.data(), 1, MPI_INT, n_received.data(), 1, MPI_INT, comm_);
-  int n = 0;
-  for (const int count : n_received) receive_at.push_back(std::exchange(n, n + count));
-  std::vector<Piece> received(n);
+  received_.resize(std::accumulate(n_received.begin(), n_received.end(), 0));
+  std::exclusive_scan(n_received.begin(), n_received.end(), receive_at.begin(), 0);  // by rank: in the order of the faces
+  n_sent[rank_] = n_received[rank_] = 0;  // what stays here is copied
+  sent_.resize(std::accumulate(n_sent.begin(), n_sent.end(), 0));
+  std::exclusive_scan(n_sent.begin(), n_sent.end(), send_at.begin(), 0);
+  std::vector<Piece*> next;
+  for (int to = 0; to < ranks; ++to) next.push_back(to == rank_ ? received_.data() + receive_at[to] : sent_.data() + send_at[to]);
+  for (const Piece& piece : share_) for_each_receiver(piece, [&](int to) { *next[to]++ = piece; });
   const MpiType type(sizeof(Piece), MPI_BYTE);
-  MPI_Alltoallv(sent.data(), n_sent.data(), send_at.data(), type, received.data(), n_received.data(), receive_at.data(),
+  MPI_Alltoallv(sent_.data(), n_sent.data(), send_at.data(), type, received_.data(), n_received.data(), receive_at.data(),
                 type, comm_);
-  return received;  // by rank, and so in the order of the faces that ranks cut
 }
 
 double SlidingInterface::audit(double angle, std::span<const Piece> pieces) const {

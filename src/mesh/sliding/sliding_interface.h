@@ -37,18 +37,18 @@ class SlidingInterface {
   /// The pieces with at least one cell on this rank when the inner zone is turned by the angle about the axis (right-handed,
   /// radians, relative to the parent), ordered by inner, then outer face. The sum over a face's pieces is the face. Each rank
   /// cuts an equal share of the inner faces, whosever they are. The same normal velocity of the mesh on both sides:
-  /// n·(axis × r) = 0. Collective.
-  std::vector<Piece> pieces(double angle) const;
+  /// n·(axis × r) = 0. Valid until the next call. Collective.
+  const std::vector<Piece>& pieces(double angle) const;
 
   /// Collective: the largest |Σ pieces − face| over both sides, in area relative to the face's size, and in moment to size
   /// times distance. SolverFailure above 1e-10.
   double audit(double angle, std::span<const Piece> pieces) const;
 
  private:
-  /// The pieces of the inner faces [begin, end).
-  std::vector<Piece> cut(double angle, int begin, int end) const;
+  /// Pieces of the inner faces [begin, end), some MB that are kept from call to call.
+  void cut(double angle, int begin, int end, std::vector<Piece>& pieces) const;
   /// Sends each piece to the ranks of its cells. Collective.
-  std::vector<Piece> hand_out(std::span<const Piece> share) const;
+  void hand_out() const;
 
   RevolutionSurface surface_;
   std::array<InterfaceSide, 2> sides_;
@@ -56,6 +56,7 @@ class SlidingInterface {
   std::vector<Box> outer_in_chart_;
   MPI_Comm comm_;
   int rank_;
+  mutable std::vector<Piece> share_, sent_, received_;
 };
 
 /// Collective, once after read_mesh, for all interfaces of the mesh together: finds and checks their faces, and gives the
