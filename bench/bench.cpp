@@ -127,6 +127,7 @@ class Bench {
     petsc(VecSet(dq, 0.01));
     euler.linearize(q, frames());
     report("product exact", time_of([&] { euler.derivative(dq, out); }, 15));
+    report("product exact, single precision", time_of([&] { euler.derivative(dq, out, {}, {}, true); }, 15));
     report("product by difference", time_of([&] {
              petsc(VecWAXPY(moved, 1e-7, dq, q));
              euler.residual(moved, frames(), out);

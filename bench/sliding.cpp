@@ -61,7 +61,7 @@ class SlidingBench {
     with_.linearize(q_, start);
     without_.linearize(q_, start);
     const double residual = added([&](EulerOperator& e) { e.residual(q_, start, out); });
-    const double product = added([&](EulerOperator& e) { e.derivative(q_, out); });
+    const double product = added([&](EulerOperator& e) { e.derivative(q_, out, {}, {}, true); });
 
     FlowSolver solver(with_, options_);
     petsc(VecCopy(q_, solver.state().q));

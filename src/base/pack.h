@@ -206,10 +206,6 @@ P window(const Number* sixteen, std::integer_sequence<int, part...>) {
   return P(window_part<first + P::kWidth * part, P>(sixteen)...);
 }
 
-}  // namespace pack
-
-namespace pack {
-
 /// As many floats as a register holds doubles.
 typedef float Half __attribute__((vector_size(4 * Pack::kWidth)));
 
