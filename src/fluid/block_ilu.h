@@ -25,7 +25,7 @@ class BlockIlu {
   struct Triangle {
     std::vector<size_t> start{0};
     std::vector<int> column;
-    std::unique_ptr<std::uint16_t[]> block;  ///< one after the other; the upper halves of floats, two columns side by side
+    std::unique_ptr<std::uint16_t[]> block;  ///< the upper halves of floats, two columns side by side
     void allocate();
   };
   void find_pattern(const int* start, const int* column, int levels);

@@ -197,7 +197,8 @@ class EulerOperator {
     }
   }
   template <class Number>
-  void sum_rates(CellFields<Number>& fields, const Frames& frames, FluxKernels::Sum interior, BoundaryKernels::Sum boundary);
+  void sum_rates(CellFields<Number>& fields, const Frames& frames, FluxKernels::Sum interior,
+                 BoundaryKernels::Sum boundary);
   void store_rates(Vec x, Vec out, const Combination& combination, const ZoneTurn& turn = {}, Vec rate = nullptr);
   void prepare(Vec q, const Frames& frames);
 
@@ -211,7 +212,7 @@ class EulerOperator {
   std::optional<LeastSquares> least_squares_;
   CellFields<double> state_, derivative_;
   CellFields<float> state_single_, derivative_single_;  ///< from the first time they are asked for
-  std::vector<Row> rates_;  ///< zero but between sum_rates() and store_rates()
+  std::vector<Row> rates_;                              ///< zero but between sum_rates() and store_rates()
   /// The state whose rows and gradients are in state_, those of other ranks and at interfaces as well.
   struct {
     VecContent content;

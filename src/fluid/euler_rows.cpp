@@ -66,9 +66,7 @@ template <class P>
 State<Dual<P>> with_derivative(const State<P>& s, const P change[kVariables], double gamma) {
   const P inverse = reciprocal(s.rho), &d_rho = change[0];
   const P d_kinetic = s.u * change[1] + s.v * change[2] + s.w * change[3] - 0.5 * d_rho * speed_squared(s);
-  const auto speed = [&](const P& u, const P& d_momentum) {
-    return Dual<P>(u, (d_momentum - u * d_rho) * inverse);
-  };
+  const auto speed = [&](const P& u, const P& d_momentum) { return Dual<P>(u, (d_momentum - u * d_rho) * inverse); };
   return {{s.rho, d_rho},
           speed(s.u, change[1]),
           speed(s.v, change[2]),
@@ -191,10 +189,10 @@ void EulerOperator::end_interfaces(CellFields<Number>& fields) const {
   if (!fields.gradients.empty()) sliding_.end_exchange(fields.gradients.data(), types.gradient);
 }
 
-#define WINDHOVER_FIELDS_OF(Number)                                               \
-  template void EulerOperator::exchange_halo(CellFields<Number>&) const;          \
-  template void EulerOperator::update_gradients(CellFields<Number>&) const;       \
-  template void EulerOperator::begin_interfaces(CellFields<Number>&) const;       \
+#define WINDHOVER_FIELDS_OF(Number)                                         \
+  template void EulerOperator::exchange_halo(CellFields<Number>&) const;    \
+  template void EulerOperator::update_gradients(CellFields<Number>&) const; \
+  template void EulerOperator::begin_interfaces(CellFields<Number>&) const; \
   template void EulerOperator::end_interfaces(CellFields<Number>&) const;
 WINDHOVER_FIELDS_OF(double)
 WINDHOVER_FIELDS_OF(float)

@@ -93,7 +93,7 @@ FaceGeometry<P> face_geometry(const FaceInput& in, const mesh::FaceBlock& b) {
   for (int k = 0; k < 3; ++k)
     a[k] = rounded_to<Number>(Pack::load(b.area[k])), m[k] = rounded_to<Number>(Pack::load(b.moment[k]));
   const P swept = in.velocity[0] * a[0] + in.velocity[1] * a[1] + in.velocity[2] * a[2] +
-                     in.angular_velocity[0] * m[0] + in.angular_velocity[1] * m[1] + in.angular_velocity[2] * m[2];
+                  in.angular_velocity[0] * m[0] + in.angular_velocity[1] * m[1] + in.angular_velocity[2] * m[2];
   const P squared = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
   const P inverse = inverse_sqrt(maximum(squared, P(std::numeric_limits<Number>::min())));  // padding has no area
   P n[3];
@@ -246,8 +246,14 @@ const P& result(const Dual<P>& x) {
 
 template <class T, class P>
 void flux_rows(const Flux<T>& f, const P& area, P rows[8]) {
-  const P columns[8] = {area * result(f.mass),   area * result(f.x), area * result(f.y), area * result(f.z),
-                        area * result(f.energy), P(0.0),             P(0.0),             P(0.0)};
+  const P columns[8] = {area * result(f.mass),
+                        area * result(f.x),
+                        area * result(f.y),
+                        area * result(f.z),
+                        area * result(f.energy),
+                        P(0.0),
+                        P(0.0),
+                        P(0.0)};
   transpose(columns, rows);
 }
 

@@ -12,9 +12,9 @@ using BlockPack = BlockPackOf<double>;
 struct FluxKernels {
   using Sum = void (*)(const FaceInput&, const mesh::FaceBlock* blocks, int count, Row* rates);
   const char* name;
-  bool needs_mach;    ///< uses the relative Mach number even without the low-Mach option
-  Sum residual[3];    ///< by Reconstruction
-  Sum derivative[3];  ///< along the derivative rows
+  bool needs_mach;           ///< uses the relative Mach number even without the low-Mach option
+  Sum residual[3];           ///< by Reconstruction
+  Sum derivative[3];         ///< along the derivative rows
   Sum derivative_single[3];  ///< the same of rows of floats
   /// d(first-order flux)/d(conserved state) of one side, times the area; from rows of doubles and of floats.
   void (*jacobian)(const FaceInput&, const mesh::FaceBlock&, int side, BlockPack& block);
@@ -48,7 +48,8 @@ void store_column(const Flux<Dual<P>>& f, const P& area, int k, std::array<P, kV
 }
 
 template <class FluxScheme, class Number>
-[[gnu::flatten]] void flux_jacobian(const FaceInput& in, const mesh::FaceBlock& b, int side, BlockPackOf<Number>& block) {
+[[gnu::flatten]] void flux_jacobian(const FaceInput& in, const mesh::FaceBlock& b, int side,
+                                    BlockPackOf<Number>& block) {
   using P = PackOf<Number>;
   const auto face = face_geometry<P>(in, b);
   const auto l = face_side<Reconstruction::first_order, P>(in, b, 0);

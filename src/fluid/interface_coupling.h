@@ -33,7 +33,7 @@ class InterfaceCoupling {
   MpiType five_{kVariables, MPI_FLOAT};
   std::vector<InterfaceBlock> blocks_;
   std::vector<mesh::Index> cells_;  ///< owned, at an interface
-  std::unique_ptr<float[]> x_;     ///< five per row of SlidingFaces; only those at an interface are ever touched
+  std::unique_ptr<float[]> x_;      ///< five per row of SlidingFaces; only those at an interface are ever touched
 };
 
 }  // namespace windhover::fluid
