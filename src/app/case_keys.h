@@ -199,7 +199,8 @@ void declare(V& v, SolverOptions& o) {
          .choices = {"ilu", "asm", "rrk", "rrk-multigrid", "point_block_jacobi", "lu", "none"}});
   v.key("ilu_levels", o.ilu_levels, {.doc = "levels of fill of the incomplete factors", .min = 0, .max = 10});
   v.key("jacobian", o.jacobian,
-        {.doc = "Jacobian products by forward differentiation or by differences", .choices = {"exact", "difference"}});
+        {.doc = "Jacobian products by forward differentiation (in single precision where a linear solve asks for no less than 1e-3) or by differences",
+         .choices = {"exact", "difference"}});
   v.key("newton_tolerance", o.newton_tolerance,
         {.doc = "fall of the residual over a step's Newton iterations or pseudo-steps, against the rate of change of the flow", .above = 0, .max = 1});
   v.key("truncation_fraction", o.truncation_fraction,

@@ -12,7 +12,8 @@ namespace {
 // the flow carries turns round from step to step, and a matrix from before would take it from the wrong side.
 constexpr double kDamping = 0.05;
 
-/// Products in single precision are exact to some 1e-5 of the residual, and taken where it falls by no more than this.
+/// Products in single precision are off by 3e-7 along a random direction; they serve where the residual is to fall by no more
+/// than this.
 constexpr double kSinglePrecision = 1e-3;
 
 constexpr double kLeastFraction = 0.2;  // density and pressure keep at least this much of themselves in one update
