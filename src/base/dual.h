@@ -87,6 +87,21 @@ void set_part(Dual<PackOf<Number>>& a, int i, const Dual<R>& r) {
   set_part(a.v, i, r.v), set_part(a.d, i, r.d);
 }
 
+/// The number type of a kernel's scalar, PackOf<Number> or Dual of it.
+template <class T>
+struct NumberOf;
+template <class Number>
+struct NumberOf<PackOf<Number>> {
+  typedef Number type;
+};
+template <class Number>
+struct NumberOf<Dual<PackOf<Number>>> {
+  typedef Number type;
+};
+/// What has no derivative, beside T.
+template <class T>
+using PackFor = PackOf<typename NumberOf<T>::type>;
+
 // Shared by all scalar types of the kernels.
 template <class T>
 T maximum(const T& a, const T& b) {

@@ -75,8 +75,7 @@ VecHandle EulerOperator::make_vector() const {
 
 FaceInput EulerOperator::face_input(const FrameState& frame) const {
   FaceInput in;
-  in.rows = state_.rows(derivative_);
-  in.rows_single = state_single_.rows(derivative_single_);
+  in.rows = {state_.rows(derivative_), state_single_.rows(derivative_single_)};
   const Vec3 V = frame.R.transpose() * frame.V, omega = frame.R.transpose() * frame.omega;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) in.rotation[3 * i + j] = frame.R(i, j);

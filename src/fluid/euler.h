@@ -80,8 +80,8 @@ struct CellFields {
 /// What travels between ranks.
 template <class Number>
 struct RowTypes {
-  MpiType row{8, std::is_same_v<Number, float> ? MPI_FLOAT : MPI_DOUBLE};
-  MpiType gradient{16, std::is_same_v<Number, float> ? MPI_FLOAT : MPI_DOUBLE};
+  static MPI_Datatype number() { return std::is_same_v<Number, float> ? MPI_FLOAT : MPI_DOUBLE; }
+  MpiType row{8, number()}, gradient{16, number()};
 };
 
 /// Which vector, and which of the contents it has had; the same on all ranks.

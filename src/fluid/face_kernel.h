@@ -1,53 +1,22 @@
 // What happens on eight faces: reconstruction from both sides, flux, and the sum into the cells.
-// Cells are rows of eight numbers (rho, u, v, w, p, Mach², 0, 0), of doubles one cache line; a face works on whole rows,
-// the flux on columns of eight faces.
+// A face works on whole rows of cells, the flux on columns of eight faces.
 #pragma once
 #include <array>
 #include <limits>
+#include <tuple>
 
-#include "base/dual.h"
 #include "fluid/boundary.h"
+#include "fluid/cell_rows.h"
 #include "fluid/gas.h"
 #include "mesh/face_block.h"
 
 namespace windhover::fluid {
 
-template <class Number>
-struct alignas(8 * sizeof(Number)) RowOf {
-  Number v[8];
-};
-using Row = RowOf<double>;
-inline constexpr int kMach = 5;  ///< column of the cell's relative Mach number squared, at most 1
-
-/// The three derivatives (zone axes) of the five variables, one after the other in cache lines.
-template <class Number>
-struct alignas(64) GradientRowOf {
-  Number v[16];
-
-  Number at(int direction, int variable) const { return v[5 * direction + variable]; }
-  void store(const PackOf<Number> g[3]) { store_fives(g[0], g[1], g[2], v); }
-  /// The change of the variables along an arm; what is in the columns after them means nothing.
-  PackOf<Number> along(const double* arm) const {
-    return window<0>(v) * arm[0] + window<5>(v) * arm[1] + window<10>(v) * arm[2];
-  }
-};
-using GradientRow = GradientRowOf<double>;
-
-/// What faces read of cells on both sides. Derivative fields (d...) are used by linearised kernels only.
-template <class Number>
-struct CellRows {
-  const RowOf<Number>* cells = nullptr;
-  const GradientRowOf<Number>* gradients = nullptr;
-  const RowOf<Number>* d_cells = nullptr;
-  const GradientRowOf<Number>* d_gradients = nullptr;
-};
-
 enum class Reconstruction { first_order, linear, limited };
 
 /// Everything a kernel reads besides the faces.
 struct FaceInput {
-  CellRows<double> rows;
-  CellRows<float> rows_single;
+  std::tuple<CellRows<double>, CellRows<float>> rows;
   double rotation[9];          ///< zone axes to inertial axes, row-major
   double velocity[3];          ///< of the zone's origin, in zone axes
   double angular_velocity[3];  ///< of the zone, in zone axes
@@ -58,27 +27,9 @@ struct FaceInput {
 
   template <class Number>
   const CellRows<Number>& rows_of() const {
-    if constexpr (std::is_same_v<Number, double>)
-      return rows;
-    else
-      return rows_single;
+    return std::get<CellRows<Number>>(rows);
   }
 };
-
-/// The number type of a kernel's scalar, PackOf<Number> or Dual of it.
-template <class T>
-struct NumberOf;
-template <class Number>
-struct NumberOf<PackOf<Number>> {
-  typedef Number type;
-};
-template <class Number>
-struct NumberOf<Dual<PackOf<Number>>> {
-  typedef Number type;
-};
-/// What has no derivative, beside T.
-template <class T>
-using PackFor = PackOf<typename NumberOf<T>::type>;
 
 template <class P>
 struct FaceGeometry {

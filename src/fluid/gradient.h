@@ -4,7 +4,7 @@
 #include <tuple>
 #include <vector>
 
-#include "fluid/face_kernel.h"
+#include "fluid/cell_rows.h"
 #include "mesh/mesh.h"
 
 namespace windhover::fluid {
