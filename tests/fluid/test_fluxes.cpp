@@ -31,7 +31,7 @@ N random_normal(std::mt19937& random) {
 std::array<double, 5> list(const Flux<double>& f) { return {f.mass, f.x, f.y, f.z, f.energy}; }
 
 void require_close(const Flux<double>& a, const Flux<double>& b, double tolerance = 1e-13) {
-  for (int k = 0; k < 5; ++k) CHECK(list(a)[k] == Approx(list(b)[k]).margin(tolerance));
+  for (int k = 0; k < 5; ++k) CHECK(list(a)[k] == Approx(list(b)[k]).epsilon(tolerance).margin(tolerance));
 }
 
 S rotated(const S& s, const Eigen::Matrix3d& R) {
