@@ -14,6 +14,8 @@
 namespace windhover::fluid {
 namespace {
 
+using fluid::times;
+
 constexpr int kSize = 5, kEntries = kSize * kSize, kPadded = 8;
 
 void store(const Column& c, float* p) { std::memcpy(p, &c, sizeof c); }
@@ -90,17 +92,21 @@ void pack(const Padded& from, Bfloat16* to) {
   for (int i = 0; i < kSize; ++i) to[2 * kPair + i] = static_cast<Bfloat16>(rounded[kSize - 1][i]);
 }
 
-/// factor · block
-inline Padded times(const Padded& factor, const Bfloat16* block) {
+Padded unpack(const Bfloat16* block) {
   const Pairs left = load_pairs(block), right = load_pairs(block + kPair);
-  const Padded columns = {first_of(left), second_of(left), first_of(right), second_of(right), last_column(block)};
-  Padded product;
+  return {first_of(left), second_of(left), first_of(right), second_of(right), last_column(block)};
+}
+
+/// factor · block; factor: a Padded, or 25 floats by columns.
+template <class Factor>
+Padded product(const Factor& factor, const Padded& block) {
+  Padded result;
   for (int k = 0; k < kSize; ++k) {
     float entries[kPadded];
-    store(columns.column[k], entries);
-    product.column[k] = times(factor, entries);
+    store(block.column[k], entries);
+    result.column[k] = times(factor, entries);
   }
-  return product;
+  return result;
 }
 
 /// False: has no inverse.
@@ -207,12 +213,14 @@ bool BlockIlu::factor(const double* blocks) {
       for (size_t at = upper_.start[k]; at < upper_.start[k + 1]; ++at) {
         const int to = place[upper_.column[at]];
         if (to < 0) continue;  // fill of a higher level
-        const Padded update = times(factor, &upper_.block[at * kEntries]);
+        const Padded update = product(row[j], unpack(&upper_.block[at * kEntries]));
         for (int c = 0; c < kSize; ++c) row[to].column[c] -= update.column[c];
       }
     }
-    regular = invert(row[n_below], &pivot_[size_t(i) * kEntries]) && regular;
-    for (int j = 0; j < n_above; ++j) pack(row[n_below + 1 + j], &upper_.block[(above + j) * kEntries]);
+    float* pivot = &pivot_[size_t(i) * kEntries];
+    regular = invert(row[n_below], pivot) && regular;
+    for (int j = 0; j < n_above; ++j)
+      pack(product<const float*>(pivot, row[n_below + 1 + j]), &upper_.block[(above + j) * kEntries]);
     for (int j = 0; j < n_below; ++j) place[lower_.column[below + j]] = -1;
     place[i] = -1;
     for (int j = 0; j < n_above; ++j) place[upper_.column[above + j]] = -1;
@@ -240,13 +248,13 @@ void BlockIlu::solve(const double* b, double* x) {
       sum -= times(ahead<kAhead>(&lower_.block[at * kEntries]), &work_[size_t(lower_.column[at]) * kPadded]);
     store(sum, &work_[size_t(i) * kPadded]);
   }
+  // rows follow from the rows just done: what needs those comes last in each sum, and pivots wait for none
   for (int i = n_ - 1; i >= 0; --i) {
     float* y = &work_[size_t(i) * kPadded];
-    Column sum = load_column(y);
-    for (size_t at = upper_.start[i]; at < upper_.start[i + 1]; ++at)
+    Column sum = times(&pivot_[size_t(i) * kEntries], y);
+    for (size_t at = upper_.start[i + 1]; at-- > upper_.start[i];)
       sum -= times(ahead<-kAhead>(&upper_.block[at * kEntries]), &work_[size_t(upper_.column[at]) * kPadded]);
     store(sum, y);
-    store(times(&pivot_[size_t(i) * kEntries], y), y);
     for (int k = 0; k < kSize; ++k) x[size_t(i) * kSize + k] = y[k];
   }
 }

@@ -32,8 +32,8 @@ class BlockIlu {
 
   int n_;
   std::vector<int> given_start_, given_column_;
-  Triangle lower_, upper_;          ///< L without its unit diagonal, U without its diagonal
-  std::unique_ptr<float[]> pivot_;  ///< inverses of U's diagonal blocks
+  Triangle lower_, upper_;          ///< L and D⁻¹U, without their unit diagonals
+  std::unique_ptr<float[]> pivot_;  ///< D⁻¹, inverses of U's diagonal blocks
   std::vector<float> work_;         ///< eight numbers a row, of which five count
 };
 
