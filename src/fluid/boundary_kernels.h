@@ -5,10 +5,11 @@
 namespace windhover::fluid {
 
 struct BoundaryKernels {
-  using Sum = void (*)(const FaceInput&, BoundaryKind, const mesh::FaceBlock* blocks, int count, Row* rates);
-  Sum residual[3];           ///< by Reconstruction
-  Sum derivative[3];         ///< along the derivative rows
-  Sum derivative_single[3];  ///< the same of rows of floats
+  template <class Number>
+  using Sum = void (*)(const FaceInput&, BoundaryKind, const mesh::FaceBlock* blocks, int count, RowOf<Number>* rates);
+  Sum<double> residual[3];          ///< by Reconstruction
+  Sum<double> derivative[3];        ///< along the derivative rows
+  Sum<float> derivative_single[3];  ///< the same of rows of floats
   /// d(first-order boundary flux)/d(conserved state of the cell), times the area.
   void (*jacobian)(const FaceInput&, BoundaryKind, const mesh::FaceBlock&, BlockPack& block);
   /// States on the boundary faces of one block.

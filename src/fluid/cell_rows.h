@@ -1,6 +1,8 @@
-// What faces read of cells: rows of eight numbers (rho, u, v, w, p, Mach², 0, 0), of doubles one cache line, and gradients.
+// What faces read of cells, rows of eight numbers (rho, u, v, w, p, Mach², 0, 0), of doubles one cache line, and gradients;
+// the arms along which they do, and rows into which fluxes are summed.
 #pragma once
 #include "base/dual.h"
+#include "mesh/face_block.h"
 
 namespace windhover::fluid {
 
@@ -19,11 +21,34 @@ struct alignas(64) GradientRowOf {
   Number at(int direction, int variable) const { return v[5 * direction + variable]; }
   void store(const PackOf<Number> g[3]) { store_fives(g[0], g[1], g[2], v); }
   /// The change of the variables along an arm; what is in the columns after them means nothing.
-  PackOf<Number> along(const double* arm) const {
+  PackOf<Number> along(const Number* arm) const {
     return window<0>(v) * arm[0] + window<5>(v) * arm[1] + window<10>(v) * arm[2];
   }
 };
 using GradientRow = GradientRowOf<double>;
+
+/// The arms of a block; in floats they are rounded a register at a time, where one for each product would take longer.
+template <class Number>
+struct ArmsOf {
+  alignas(64) Number of[mesh::kLanes][2][3];
+
+  explicit ArmsOf(const mesh::FaceBlock& b) {
+    for (int k = 0; k < 6 * mesh::kLanes; k += 8)
+      rounded_to<Number>(Pack::load(&b.arm[0][0][0] + k)).store(&of[0][0][0] + k);
+  }
+};
+template <>
+struct ArmsOf<double> {
+  const double (&of)[mesh::kLanes][2][3];
+
+  explicit ArmsOf(const mesh::FaceBlock& b) : of(b.arm) {}
+};
+
+/// The arms in T's numbers, and where fluxes of T are summed.
+template <class T>
+using ArmsFor = ArmsOf<typename NumberOf<T>::type>;
+template <class T>
+using RateRow = RowOf<typename NumberOf<T>::type>;
 
 /// What faces read of cells on both sides. Derivative fields (d...) are used by linearised kernels only.
 template <class Number>

@@ -62,8 +62,15 @@ EulerOperator::EulerOperator(const mesh::Mesh& mesh, FlowModel model, std::vecto
     zone.end = c + 1;
   }
   state_.resize(sliding_.n_cells(), model_.reconstruction != Reconstruction::first_order ? n_sides : 0);
-  rates_.resize(n_sides);
-  use_large_pages(rates_);
+  make_rates<double>(n_sides);
+}
+
+template <class Number>
+void EulerOperator::make_rates(size_t n) {
+  auto& rates = std::get<RateRows<Number>>(rates_);
+  if (rates.size() == n) return;
+  rates.resize(n);
+  use_large_pages(rates);
 }
 
 VecHandle EulerOperator::make_vector() const {
@@ -90,7 +97,9 @@ FaceInput EulerOperator::face_input(const FrameState& frame) const {
 
 /// Leaves the rates at zero for the next sum, while they are in the cache. `turn` leads from the axes of x and out. `rate`:
 /// gets R alone.
+template <class Number>
 void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination, const ZoneTurn& turn, Vec rate) {
+  auto& rates = std::get<RateRows<Number>>(rates_);
   double *to = nullptr, *alone = nullptr;
   const double *from = nullptr, *known = nullptr;
   petsc(VecGetArrayWrite(out, &to));
@@ -100,11 +109,11 @@ void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination, 
   Pack axes[3] = {0.0, 0.0, 0.0};  // columns of the zone's matrix, where the momentum is
   alignas(64) constexpr double scalars[8] = {1, 0, 0, 0, 1};
   const auto combine = [&](mesh::Index c, auto columns) {
-    const Pack own = Pack::load(rates_[c].v);
+    const Pack own = widened(PackOf<Number>::load(rates[c].v));
     if (alone) std::memcpy(alone + kVariables * c, &own, columns * sizeof(double));
     Pack sum = combination.rate * own;
     if (!turn.none()) sum = Pack::load(scalars) * sum + axes[0] * sum[1] + axes[1] * sum[2] + axes[2] * sum[3];
-    Pack(0.0).store(rates_[c].v);
+    PackOf<Number>(0.0).store(rates[c].v);
     Pack term(0.0);
     std::memcpy(&term, from + kVariables * c, columns * sizeof(double));
     sum += combination.mass * mesh_.volume[c] * term;
@@ -124,7 +133,7 @@ void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination, 
     for (mesh::Index c = std::max(zone.begin, safe); c < zone.end; ++c)
       combine(c, std::integral_constant<int, kVariables>());
   }
-  std::fill(rates_.begin() + mesh_.n_owned, rates_.end(), Row{});
+  std::fill(rates.begin() + mesh_.n_owned, rates.end(), RowOf<Number>{});
   if (rate) petsc(VecRestoreArrayWrite(rate, &alone));
   if (combination.known) petsc(VecRestoreArrayRead(combination.known, &known));
   petsc(VecRestoreArrayRead(x, &from));
@@ -148,26 +157,23 @@ void EulerOperator::prepare(Vec q, const Frames& frames) {
   update_gradients(state_);
 }
 
-/// From own rows of the cells. The zones' own faces come while other ranks' rows at interfaces are under way, the
-/// boundaries while fluxes through interfaces are, which one of the two ranks of a face makes.
+/// From own rows of the cells. The zones' own faces and boundaries come while other ranks' rows at interfaces are under way.
 template <class Number>
-void EulerOperator::sum_rates(CellFields<Number>& fields, const Frames& frames, FluxKernels::Sum interior,
-                              BoundaryKernels::Sum boundary) {
+void EulerOperator::sum_rates(CellFields<Number>& fields, const Frames& frames, FluxKernels::Sum<Number> interior,
+                              BoundaryKernels::Sum<Number> boundary) {
+  auto& rates = std::get<RateRows<Number>>(rates_);
   exchange_halo(fields);
   update_gradients(fields);
   begin_interfaces(fields);
   const auto between_cells = [&](const FaceInput& in, const mesh::FaceBlock* blocks, int n) {
-    interior(in, blocks, n, rates_.data());
+    interior(in, blocks, n, rates.data());
   };
   for_each_zone(frames, between_cells);
-  end_interfaces(fields);
-  for_each_interface(frames, between_cells, /*ours=*/true);
-  const MpiType& row = std::get<RowTypes<double>>(types_).row;
-  sliding_.begin_sum(rates_.data(), row);
   for_each_patch(frames, [&](const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int n, int) {
-    boundary(in, kind, blocks, n, rates_.data());
+    boundary(in, kind, blocks, n, rates.data());
   });
-  sliding_.end_sum(rates_.data(), row);
+  end_interfaces(fields);
+  for_each_interface(frames, between_cells);
 }
 
 void EulerOperator::keep_rates() {
@@ -183,7 +189,7 @@ void EulerOperator::residual(Vec q, const Frames& frames, Vec out, const Combina
   fill_cells(q, frames);
   const int r = static_cast<int>(model_.reconstruction);
   sum_rates(state_, frames, model_.flux->residual[r], kBoundaryKernels.residual[r]);
-  store_rates(q, out, combination, {}, rate_);
+  store_rates<double>(q, out, combination, {}, rate_);
   hold(q, frames);
   held_.rate = rate_;
 }
@@ -199,18 +205,20 @@ void EulerOperator::linearize(Vec q, const Frames& frames) {
 
 void EulerOperator::derivative(Vec dq, Vec out, const Combination& combination, const ZoneTurn& turn, bool single) {
   const int r = static_cast<int>(model_.reconstruction);
-  const auto sum = [&](const auto& state, auto& along, const auto& interior, const auto& boundary) {
+  const auto sum = [&]<class Number>(const CellFields<Number>& state, CellFields<Number>& along, const auto& interior,
+                                     const auto& boundary) {
     if (along.cells.empty()) along.resize(state_.cells.size(), state_.gradients.size());
     fill_derivatives(dq, turn, state, along);
     sum_rates(along, held_.frames, interior[r], boundary[r]);
+    store_rates<Number>(dq, out, combination, turn);
   };
   if (single) {
     round_state();
+    make_rates<float>(std::get<RateRows<double>>(rates_).size());
     sum(state_single_, derivative_single_, model_.flux->derivative_single, kBoundaryKernels.derivative_single);
   } else {
     sum(state_, derivative_, model_.flux->derivative, kBoundaryKernels.derivative);
   }
-  store_rates(dq, out, combination, turn);
 }
 
 }  // namespace windhover::fluid

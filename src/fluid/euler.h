@@ -77,6 +77,10 @@ struct CellFields {
   }
 };
 
+/// Sums of what leaves each cell, zero but while they are made.
+template <class Number>
+using RateRows = std::vector<RowOf<Number>>;
+
 /// What travels between ranks.
 template <class Number>
 struct RowTypes {
@@ -114,7 +118,7 @@ class EulerOperator {
   /// to be asked, of the same q and frames.
   void linearize(Vec q, const Frames& frames);
   /// out = (mass V + rate dR/dq) dq, exact (forward mode); dq and out in the axes from which `turn` leads to the state's.
-  /// `single`: what passes through faces is made of floats, and summed in doubles.
+  /// `single`: what passes through faces is made of floats, and so are its sums.
   void derivative(Vec dq, Vec out, const Combination& combination = {}, const ZoneTurn& turn = {}, bool single = false);
 
   /// jacobian = scale · d(first-order residual)/dq + diagonal(mass_scale · volume). `damping`: a speed by which the
@@ -148,6 +152,8 @@ class EulerOperator {
   double courant_number(Vec q, const Frames& frames, double dt);
 
  private:
+  template <class Number>
+  void make_rates(size_t n);
   template <class T>
   T mach_column(const State<T>& s, const PackFor<T> grid[3]) const;
   void fill_cells(Vec q, const Frames& frames);
@@ -184,21 +190,18 @@ class EulerOperator {
               static_cast<int>(patch.blocks.size()), static_cast<int>(p));
     }
   }
-  /// Calls visit(input, blocks, count) for the faces of each sliding interface that have a cell here, or `ours`: for those
-  /// whose flux this rank makes.
+  /// Calls visit(input, blocks, count) for the faces of each sliding interface that have a cell here.
   template <class Visit>
-  void for_each_interface(const Frames& frames, Visit visit, bool ours = false) {
+  void for_each_interface(const Frames& frames, Visit visit) {
     if (sliding_.empty()) return;
     const auto& interfaces = sliding_.faces(frames);
-    for (size_t i = 0; i < interfaces.size(); ++i) {
-      const InterfaceFaces& faces = interfaces[i];
-      visit(face_input(frames[sliding_.frame_zone(i)]), faces.blocks.data(),
-            ours ? faces.n_ours : static_cast<int>(faces.blocks.size()));
-    }
+    for (size_t i = 0; i < interfaces.size(); ++i)
+      visit(face_input(frames[sliding_.frame_zone(i)]), interfaces[i].data(), static_cast<int>(interfaces[i].size()));
   }
   template <class Number>
-  void sum_rates(CellFields<Number>& fields, const Frames& frames, FluxKernels::Sum interior,
-                 BoundaryKernels::Sum boundary);
+  void sum_rates(CellFields<Number>& fields, const Frames& frames, FluxKernels::Sum<Number> interior,
+                 BoundaryKernels::Sum<Number> boundary);
+  template <class Number>
   void store_rates(Vec x, Vec out, const Combination& combination, const ZoneTurn& turn = {}, Vec rate = nullptr);
   void prepare(Vec q, const Frames& frames);
 
@@ -212,7 +215,7 @@ class EulerOperator {
   std::optional<LeastSquares> least_squares_;
   CellFields<double> state_, derivative_;
   CellFields<float> state_single_, derivative_single_;  ///< from the first time they are asked for
-  std::vector<Row> rates_;                              ///< zero but between sum_rates() and store_rates()
+  std::tuple<RateRows<double>, RateRows<float>> rates_;
   /// The state whose rows and gradients are in state_, those of other ranks and at interfaces as well.
   struct {
     VecContent content;

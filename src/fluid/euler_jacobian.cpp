@@ -86,7 +86,7 @@ void EulerOperator::interface_jacobian(Vec q, const Frames& frames, double scale
       forth[s].block<3, 3>(1, 1) = turn.forth(sliding_.zones(i)[s]).cast<float>();
     }
     BlockPackOf<float> side;
-    for (const FaceBlock& b : interfaces[i].blocks)
+    for (const FaceBlock& b : interfaces[i])
       for (int column = 0; column < 2; ++column) {
         const int row = 1 - column;
         const auto is_own = [&](int c) { return c < mesh_.n_owned; };

@@ -71,7 +71,7 @@ std::array<T, 2> limited_fractions(const T& slope_l, const T& slope_r, const T& 
 
 /// The change of a row along an arm; the Mach number is not reconstructed.
 template <class Number>
-PackOf<Number> change(const GradientRowOf<Number>& g, const double* arm) {
+PackOf<Number> change(const GradientRowOf<Number>& g, const Number* arm) {
   return first_lanes<kVariables>(g.along(arm));
 }
 
@@ -89,7 +89,7 @@ template <class Number>
 struct Rows<PackOf<Number>> {
   using P = PackOf<Number>;
   static P cell(const FaceInput& in, int c) { return P::load(in.rows_of<Number>().cells[c].v); }
-  static P slope(const FaceInput& in, int c, const double* arm) {
+  static P slope(const FaceInput& in, int c, const Number* arm) {
     return change(in.rows_of<Number>().gradients[c], arm);
   }
   static void columns(const P rows[8], P out[8]) { transpose(rows, out); }
@@ -102,7 +102,7 @@ struct Rows<Dual<PackOf<Number>>> {
     const auto& rows = in.rows_of<Number>();
     return {P::load(rows.cells[c].v), P::load(rows.d_cells[c].v)};
   }
-  static Dual<P> slope(const FaceInput& in, int c, const double* arm) {
+  static Dual<P> slope(const FaceInput& in, int c, const Number* arm) {
     const auto& rows = in.rows_of<Number>();
     return {change(rows.gradients[c], arm), change(rows.d_gradients[c], arm)};
   }
@@ -129,17 +129,17 @@ T least_row(const T& own) {
 
 /// The state of cell `side` of lane i, taken to the face without a limiter.
 template <Reconstruction R, class T>
-T face_row(const FaceInput& in, const mesh::FaceBlock& b, int i, int side) {
+T face_row(const FaceInput& in, const mesh::FaceBlock& b, const ArmsFor<T>& arms, int i, int side) {
   const T own = Rows<T>::cell(in, b.cell[side][i]);
   if constexpr (R == Reconstruction::first_order) return own;
-  return maximum(own + Rows<T>::slope(in, b.cell[side][i], b.arm[i][side]), least_row(own));
+  return maximum(own + Rows<T>::slope(in, b.cell[side][i], arms.of[i][side]), least_row(own));
 }
 
 /// The states of both cells of lane i, taken to the face and limited against each other.
 template <class T>
-std::array<T, 2> limited_face_rows(const FaceInput& in, const mesh::FaceBlock& b, int i) {
+std::array<T, 2> limited_face_rows(const FaceInput& in, const mesh::FaceBlock& b, const ArmsFor<T>& arms, int i) {
   const int l = b.cell[0][i], r = b.cell[1][i];
-  const double *arm_l = b.arm[i][0], *arm_r = b.arm[i][1];
+  const auto *arm_l = arms.of[i][0], *arm_r = arms.of[i][1];
   const T own_l = Rows<T>::cell(in, l), own_r = Rows<T>::cell(in, r);
   const T change_l = Rows<T>::slope(in, l, arm_l), change_r = Rows<T>::slope(in, r, arm_r);
   // from the left centroid to the right one: along the own arm to the face, and back along the other's
@@ -158,23 +158,29 @@ Side<T> side_of(const T rows[8]) {
 
 /// One side without a limiter: boundaries, where there is nothing to limit against, and first order.
 template <Reconstruction R, class T>
-Side<T> face_side(const FaceInput& in, const mesh::FaceBlock& b, int side) {
+Side<T> face_side(const FaceInput& in, const mesh::FaceBlock& b, const ArmsFor<T>& arms, int side) {
   T rows[8];
-  for (int i = 0; i < 8; ++i) rows[i] = face_row<R, T>(in, b, i, side);
+  for (int i = 0; i < 8; ++i) rows[i] = face_row<R, T>(in, b, arms, i, side);
   return side_of(rows);
 }
 
 template <Reconstruction R, class T>
+Side<T> face_side(const FaceInput& in, const mesh::FaceBlock& b, int side) {
+  return face_side<R, T>(in, b, ArmsFor<T>(b), side);
+}
+
+template <Reconstruction R, class T>
 std::array<Side<T>, 2> face_sides(const FaceInput& in, const mesh::FaceBlock& b) {
+  const ArmsFor<T> arms(b);
   if constexpr (R == Reconstruction::limited) {
     T l[8], r[8];
     for (int i = 0; i < 8; ++i) {
-      const auto both = limited_face_rows<T>(in, b, i);
+      const auto both = limited_face_rows<T>(in, b, arms, i);
       l[i] = both[0], r[i] = both[1];
     }
     return {side_of(l), side_of(r)};
   } else {
-    return {face_side<R, T>(in, b, 0), face_side<R, T>(in, b, 1)};
+    return {face_side<R, T>(in, b, arms, 0), face_side<R, T>(in, b, arms, 1)};
   }
 }
 
@@ -211,7 +217,7 @@ void flux_rows(const Flux<T>& f, const P& area, P rows[8]) {
 /// Asks for what the next blocks need while this one is worked on: the geometry of the third block from here, and the
 /// next block's cells, which are scattered in memory. The processor's own prefetching finds neither in time.
 template <Reconstruction R, class T>
-void prefetch(const FaceInput& in, const mesh::FaceBlock* blocks, int left, const Row* rates) {
+void prefetch(const FaceInput& in, const mesh::FaceBlock* blocks, int left, const RateRow<T>* rates) {
   constexpr bool dual = !std::is_same_v<T, PackFor<T>>;
   using Number = typename NumberOf<T>::type;
   const CellRows<Number>& rows = in.rows_of<Number>();
@@ -247,15 +253,14 @@ Flux<T> flux_of(const State<T>& l, const State<T>& r, const FaceNormal<PackFor<T
   return all;
 }
 
-/// Sums are of doubles always: what leaves a cell through one face comes back through another.
-template <class P>
-void add(Row& row, const P& x) {
-  (Pack::load(row.v) + widened(x)).store(row.v);
+template <class Number>
+void add(RowOf<Number>& row, const PackOf<Number>& x) {
+  (PackOf<Number>::load(row.v) + x).store(row.v);
 }
 
 /// Interior faces: rates[cell] += what leaves. T = Dual<PackOf<Number>> gives the derivative along d_cells.
 template <class FluxScheme, Reconstruction R, class T>
-[[gnu::flatten]] void sum_interior(const FaceInput& in, const mesh::FaceBlock* blocks, int count, Row* rates) {
+[[gnu::flatten]] void sum_interior(const FaceInput& in, const mesh::FaceBlock* blocks, int count, RateRow<T>* rates) {
   for (int k = 0; k < count; ++k) {
     const mesh::FaceBlock& b = blocks[k];
     prefetch<R, T>(in, blocks + k, count - k, rates);
@@ -278,7 +283,7 @@ State<T> boundary_state(BoundaryKind kind, const State<T>& s, const FaceInput& i
 
 template <Reconstruction R, class T>
 [[gnu::flatten]] void sum_boundary(const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int count,
-                                   Row* rates) {
+                                   RateRow<T>* rates) {
   for (int k = 0; k < count; ++k) {
     const mesh::FaceBlock& b = blocks[k];
     const auto face = face_geometry<PackFor<T>>(in, b);

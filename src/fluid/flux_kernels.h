@@ -10,12 +10,13 @@ using BlockPackOf = std::array<PackOf<Number>, kVariables * kVariables>;
 using BlockPack = BlockPackOf<double>;
 
 struct FluxKernels {
-  using Sum = void (*)(const FaceInput&, const mesh::FaceBlock* blocks, int count, Row* rates);
+  template <class Number>
+  using Sum = void (*)(const FaceInput&, const mesh::FaceBlock* blocks, int count, RowOf<Number>* rates);
   const char* name;
-  bool needs_mach;           ///< uses the relative Mach number even without the low-Mach option
-  Sum residual[3];           ///< by Reconstruction
-  Sum derivative[3];         ///< along the derivative rows
-  Sum derivative_single[3];  ///< the same of rows of floats
+  bool needs_mach;                  ///< uses the relative Mach number even without the low-Mach option
+  Sum<double> residual[3];          ///< by Reconstruction
+  Sum<double> derivative[3];        ///< along the derivative rows
+  Sum<float> derivative_single[3];  ///< the same of rows of floats
   /// d(first-order flux)/d(conserved state) of one side, times the area; from rows of doubles and of floats.
   void (*jacobian)(const FaceInput&, const mesh::FaceBlock&, int side, BlockPack& block);
   void (*jacobian_single)(const FaceInput&, const mesh::FaceBlock&, int side, BlockPackOf<float>& block);

@@ -69,14 +69,6 @@ void SlidingFaces::end_exchange(void* rows, MPI_Datatype row) const {
   if (!empty()) petsc(PetscSFBcastEnd(remote_, row, rows, rows, MPI_REPLACE));
 }
 
-void SlidingFaces::begin_sum(void* rows, MPI_Datatype row) const {
-  if (!empty()) petsc(PetscSFReduceBegin(remote_, row, rows, rows, MPI_SUM));
-}
-
-void SlidingFaces::end_sum(void* rows, MPI_Datatype row) const {
-  if (!empty()) petsc(PetscSFReduceEnd(remote_, row, rows, rows, MPI_SUM));
-}
-
 /// By which angle the inner zone is turned about the interface's axis, relative to the parent.
 double SlidingFaces::angle(const mesh::SlidingInterface& interface, const Frames& frames) const {
   const mesh::Mat3 turned = frames[interface.zone(1)].R.transpose() * frames[interface.zone(0)].R;
@@ -84,26 +76,17 @@ double SlidingFaces::angle(const mesh::SlidingInterface& interface, const Frames
   return std::atan2(axis.dot(x.cross(moved)), x.dot(moved));
 }
 
-/// Both ranks of a piece say the same of it.
-bool SlidingFaces::is_ours(size_t i, const mesh::Piece& piece) const {
-  const int inner = interfaces_[i].faces(0)[piece.inner].rank, outer = interfaces_[i].faces(1)[piece.outer].rank;
-  return ((piece.inner + piece.outer) % 2 == 0 ? inner : outer) == rank_;
-}
-
 void SlidingFaces::make_faces(size_t i, double angle, InterfaceFaces& faces) const {
   const std::vector<mesh::Piece>& pieces = interfaces_[i].pieces(angle);
   interfaces_[i].audit(angle, pieces);
   const auto is_own = [&](int side, int face) { return interfaces_[i].faces(side)[face].rank == rank_; };
-  std::vector<char> group;
-  for (const auto& p : pieces) group.push_back((is_ours(i, p) ? 0 : 2) + (is_own(0, p.inner) ? 0 : 1));
-  faces.blocks.clear();
-  const auto append = [&](int wanted) {
+  faces.clear();
+  const auto append = [&](bool inner_is_own) {
     bool full = true;
-    for (size_t k = 0; k < pieces.size(); ++k) {
-      if (group[k] != wanted) continue;
-      const mesh::Piece& piece = pieces[k];
-      if (full) faces.blocks.push_back({});
-      FaceBlock& b = faces.blocks.back();
+    for (const mesh::Piece& piece : pieces) {
+      if (is_own(0, piece.inner) != inner_is_own) continue;
+      if (full) faces.push_back({});
+      FaceBlock& b = faces.back();
       const int lane = b.count++;
       full = b.count == mesh::kLanes;
       const int cell[2] = {face_cell_[i][0][piece.inner], face_cell_[i][1][piece.outer]};
@@ -117,11 +100,9 @@ void SlidingFaces::make_faces(size_t i, double angle, InterfaceFaces& faces) con
         for (int l = lane; l < mesh::kLanes && (l == lane || lane == 0); ++l) b.cell[side][l] = cell[side];
     }
   };
-  faces.blocks.reserve(pieces.size() / mesh::kLanes + 4);
-  // ours first; blocks are of pieces whose own cells are on the same side, since only the other side's derivative is wanted
-  append(0), append(1);
-  faces.n_ours = static_cast<int>(faces.blocks.size());
-  append(2), append(3);
+  faces.reserve(pieces.size() / mesh::kLanes + 2);
+  // a block's own cells are on the same side, since only the other side's derivative is wanted
+  append(true), append(false);
 }
 
 const std::vector<InterfaceFaces>& SlidingFaces::faces(const Frames& frames) {

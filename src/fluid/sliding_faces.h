@@ -12,12 +12,7 @@ namespace windhover::fluid {
 
 /// Frames of all zones at one time.
 using Frames = std::vector<mesh::FrameState>;
-
-/// The faces of an interface that have a cell on this rank. Of those between two ranks each makes half of the fluxes.
-struct InterfaceFaces {
-  std::vector<mesh::FaceBlock> blocks;
-  int n_ours = 0;  ///< leading blocks whose fluxes this rank makes
-};
+using InterfaceFaces = std::vector<mesh::FaceBlock>;
 
 /// Cells of other ranks at an interface are kept after the mesh's own cells, as rows [mesh.n_cells, n_cells()): every
 /// rank that has cells at an interface keeps all the others there, since they may meet at some angle.
@@ -37,16 +32,13 @@ class SlidingFaces {
   /// This rank's cells at an interface, in ascending order.
   std::vector<mesh::Index> own_cells() const;
 
-  /// Of each interface at these frames, in the parent's frame, normals from the inner zone (cell[0]) to the parent.
-  /// Collective; SolverFailure when the pieces do not sum to the faces (audit).
+  /// Of each interface at these frames the faces that have a cell on this rank, in the parent's frame, normals from the inner
+  /// zone (cell[0]) to the parent. Collective; SolverFailure when the pieces do not sum to the faces (audit).
   const std::vector<InterfaceFaces>& faces(const Frames& frames);
 
   /// Fills the rows of other ranks' cells; between begin and end none of an interface's rows may change. Collective.
   void begin_exchange(void* rows, MPI_Datatype row) const;
   void end_exchange(void* rows, MPI_Datatype row) const;
-  /// Adds the rows of other ranks' cells to theirs, row of doubles; between begin and end they must not change. Collective.
-  void begin_sum(void* rows, MPI_Datatype row) const;
-  void end_sum(void* rows, MPI_Datatype row) const;
 
  private:
   struct Position {
@@ -55,14 +47,14 @@ class SlidingFaces {
   };
   void number_cells();
   double angle(const mesh::SlidingInterface& interface, const Frames& frames) const;
-  bool is_ours(size_t i, const mesh::Piece& piece) const;
   void make_faces(size_t i, double angle, InterfaceFaces& faces) const;
 
   const mesh::Mesh& mesh_;
   int rank_;
   std::vector<mesh::SlidingInterface> interfaces_;
   mesh::Index n_cells_;
-  std::vector<std::array<std::vector<int>, 2>> face_cell_;  ///< row of each face's cell; −1 on ranks away from the interface
+  std::vector<std::array<std::vector<int>, 2>>
+      face_cell_;  ///< row of each face's cell; −1 on ranks away from the interface
   SfHandle remote_;
   std::deque<Position> positions_;  ///< the latest ones: a step works at its two ends
 };
