@@ -62,15 +62,8 @@ EulerOperator::EulerOperator(const mesh::Mesh& mesh, FlowModel model, std::vecto
     zone.end = c + 1;
   }
   state_.resize(sliding_.n_cells(), model_.reconstruction != Reconstruction::first_order ? n_sides : 0);
-  make_rates<double>(n_sides);
-}
-
-template <class Number>
-void EulerOperator::make_rates(size_t n) {
-  auto& rates = std::get<RateRows<Number>>(rates_);
-  if (rates.size() == n) return;
-  rates.resize(n);
-  use_large_pages(rates);
+  rates_.resize(n_sides);
+  use_large_pages(rates_);
 }
 
 VecHandle EulerOperator::make_vector() const {
@@ -99,7 +92,7 @@ FaceInput EulerOperator::face_input(const FrameState& frame) const {
 /// gets R alone.
 template <class Number>
 void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination, const ZoneTurn& turn, Vec rate) {
-  auto& rates = std::get<RateRows<Number>>(rates_);
+  RowOf<Number>* const rates = this->rates<Number>();
   double *to = nullptr, *alone = nullptr;
   const double *from = nullptr, *known = nullptr;
   petsc(VecGetArrayWrite(out, &to));
@@ -133,7 +126,7 @@ void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination, 
     for (mesh::Index c = std::max(zone.begin, safe); c < zone.end; ++c)
       combine(c, std::integral_constant<int, kVariables>());
   }
-  std::fill(rates.begin() + mesh_.n_owned, rates.end(), RowOf<Number>{});
+  std::fill(rates + mesh_.n_owned, rates + rates_.size(), RowOf<Number>{});
   if (rate) petsc(VecRestoreArrayWrite(rate, &alone));
   if (combination.known) petsc(VecRestoreArrayRead(combination.known, &known));
   petsc(VecRestoreArrayRead(x, &from));
@@ -161,16 +154,16 @@ void EulerOperator::prepare(Vec q, const Frames& frames) {
 template <class Number>
 void EulerOperator::sum_rates(CellFields<Number>& fields, const Frames& frames, FluxKernels::Sum<Number> interior,
                               BoundaryKernels::Sum<Number> boundary) {
-  auto& rates = std::get<RateRows<Number>>(rates_);
+  RowOf<Number>* const rates = this->rates<Number>();
   exchange_halo(fields);
   update_gradients(fields);
   begin_interfaces(fields);
   const auto between_cells = [&](const FaceInput& in, const mesh::FaceBlock* blocks, int n) {
-    interior(in, blocks, n, rates.data());
+    interior(in, blocks, n, rates);
   };
   for_each_zone(frames, between_cells);
   for_each_patch(frames, [&](const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int n, int) {
-    boundary(in, kind, blocks, n, rates.data());
+    boundary(in, kind, blocks, n, rates);
   });
   end_interfaces(fields);
   for_each_interface(frames, between_cells);
@@ -214,7 +207,6 @@ void EulerOperator::derivative(Vec dq, Vec out, const Combination& combination, 
   };
   if (single) {
     round_state();
-    make_rates<float>(std::get<RateRows<double>>(rates_).size());
     sum(state_single_, derivative_single_, model_.flux->derivative_single, kBoundaryKernels.derivative_single);
   } else {
     sum(state_, derivative_, model_.flux->derivative, kBoundaryKernels.derivative);

@@ -77,10 +77,6 @@ struct CellFields {
   }
 };
 
-/// Sums of what leaves each cell, zero but while they are made.
-template <class Number>
-using RateRows = std::vector<RowOf<Number>>;
-
 /// What travels between ranks.
 template <class Number>
 struct RowTypes {
@@ -152,8 +148,6 @@ class EulerOperator {
   double courant_number(Vec q, const Frames& frames, double dt);
 
  private:
-  template <class Number>
-  void make_rates(size_t n);
   template <class T>
   T mach_column(const State<T>& s, const PackFor<T> grid[3]) const;
   void fill_cells(Vec q, const Frames& frames);
@@ -204,6 +198,11 @@ class EulerOperator {
   template <class Number>
   void store_rates(Vec x, Vec out, const Combination& combination, const ZoneTurn& turn = {}, Vec rate = nullptr);
   void prepare(Vec q, const Frames& frames);
+  /// Sums of doubles, or of floats in the same memory: they are never made at once, and zeros in between.
+  template <class Number>
+  RowOf<Number>* rates() {
+    return reinterpret_cast<RowOf<Number>*>(rates_.data());
+  }
 
   const mesh::Mesh& mesh_;
   FlowModel model_;
@@ -215,7 +214,7 @@ class EulerOperator {
   std::optional<LeastSquares> least_squares_;
   CellFields<double> state_, derivative_;
   CellFields<float> state_single_, derivative_single_;  ///< from the first time they are asked for
-  std::tuple<RateRows<double>, RateRows<float>> rates_;
+  std::vector<Row> rates_;                              ///< zero but between sum_rates() and store_rates()
   /// The state whose rows and gradients are in state_, those of other ranks and at interfaces as well.
   struct {
     VecContent content;

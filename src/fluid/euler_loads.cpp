@@ -87,7 +87,7 @@ std::vector<State<double>> EulerOperator::patch_states(Vec q, const Frames& fram
 
 std::vector<double> EulerOperator::spectral_radii(Vec q, const Frames& frames) {
   load_cells(q, frames);
-  std::vector<double> radii(std::get<RateRows<double>>(rates_).size(), 0.0);
+  std::vector<double> radii(rates_.size(), 0.0);
   const auto add = [&](const FaceInput& in, const FaceBlock* blocks, int n, int sides) {
     for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
       const auto face = face_geometry<Pack>(in, *b);
