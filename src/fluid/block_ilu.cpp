@@ -241,13 +241,19 @@ const Bfloat16* ahead(const Bfloat16* block) {
 
 }  // namespace
 
-void BlockIlu::solve(const double* b, double* x) {
-  for (int i = 0; i < n_; ++i) {
-    Column sum = rounded(b + size_t(i) * kSize);
+void BlockIlu::solve(const double* b, double* x, const ChangedRows& changed) {
+  const auto substitute = [&](int i, const double* right) {
+    Column sum = rounded(right);
     for (size_t at = lower_.start[i]; at < lower_.start[i + 1]; ++at)
       sum -= times(ahead<kAhead>(&lower_.block[at * kEntries]), &work_[size_t(lower_.column[at]) * kPadded]);
     store(sum, &work_[size_t(i) * kPadded]);
+  };
+  int row = 0;
+  for (size_t k = 0; k < changed.rows.size(); ++k) {
+    for (; row < changed.rows[k]; ++row) substitute(row, b + size_t(row) * kSize);
+    substitute(row++, changed.values + k * kSize);
   }
+  for (; row < n_; ++row) substitute(row, b + size_t(row) * kSize);
   // rows follow from the rows just done: what needs those comes last in each sum, and pivots wait for none
   for (int i = n_ - 1; i >= 0; --i) {
     float* y = &work_[size_t(i) * kPadded];

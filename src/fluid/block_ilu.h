@@ -1,11 +1,18 @@
 // Incomplete LU factors of a matrix of 5x5 blocks, kept in bfloat16 and applied in single precision: what fill they leave out
-// is worth more than the digits, and their application costs what it takes to read them once.
+// is worth more than the digits.
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace windhover::fluid {
+
+/// Rows of a right side that are not as given, ascending, and the five values of each.
+struct ChangedRows {
+  std::span<const int> rows;
+  const double* values = nullptr;
+};
 
 class BlockIlu {
  public:
@@ -15,8 +22,8 @@ class BlockIlu {
 
   /// Blocks in the order of the pattern, each by columns. False: some pivot cannot be inverted.
   bool factor(const double* blocks);
-  /// x = U⁻¹ L⁻¹ b, five values a row.
-  void solve(const double* b, double* x);
+  /// x = U⁻¹ L⁻¹ b, five values a row, with `changed` in place of some.
+  void solve(const double* b, double* x, const ChangedRows& changed = {});
   /// x = U⁻¹ b of one row alone.
   void solve_row(int row, const double* b, float* x) const;
 

@@ -49,7 +49,7 @@ PetscErrorCode apply_own(PC pc, Vec b, Vec x) {
     double* to = nullptr;
     petsc(VecGetArrayRead(b, &from));
     petsc(VecGetArrayWrite(x, &to));
-    ilu.factors->solve(ilu.band ? ilu.band->right_side(from) : from, to);
+    ilu.factors->solve(from, to, ilu.band ? ilu.band->right_side(from) : ChangedRows{});
     petsc(VecRestoreArrayWrite(x, &to));
     petsc(VecRestoreArrayRead(b, &from));
   });

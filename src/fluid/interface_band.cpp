@@ -14,31 +14,29 @@ Number* five(Number* values, size_t cell) {
   return values + kVariables * cell;
 }
 
-std::vector<int> places(const std::vector<mesh::Index>& cells, mesh::Index n) {
-  std::vector<int> place(n, -1);
-  for (size_t i = 0; i < cells.size(); ++i) place[cells[i]] = static_cast<int>(i);
-  return place;
-}
-
 }  // namespace
 
 InterfaceBand::InterfaceBand(InterfaceCoupling& coupling, const BlockPattern& whole)
     : coupling_(coupling),
       cells_(coupling.cells_within(kLayers)),
-      place_(places(cells_, whole.rows())),
       factors_([&] {
         const Pattern part = cut(whole);
         return BlockIlu(static_cast<int>(cells_.size()), part.start.data(), part.column.data(), kFill);
       }()),
-      sum_(kVariables * place_.size()),
+      changed_(kVariables * coupling.cells().size()),
       b_(kVariables * cells_.size()),
-      x_(b_.size()) {}
+      x_(b_.size()) {
+  for (const mesh::Index c : coupling.cells())
+    at_interface_.push_back(static_cast<int>(std::lower_bound(cells_.begin(), cells_.end(), c) - cells_.begin()));
+}
 
 InterfaceBand::Pattern InterfaceBand::cut(const BlockPattern& whole) {
+  std::vector<int> place(whole.rows(), -1);
+  for (size_t i = 0; i < cells_.size(); ++i) place[cells_[i]] = static_cast<int>(i);
   Pattern part;
   for (const mesh::Index row : cells_) {
     for (int at = whole.start()[row]; at < whole.start()[row + 1]; ++at)
-      if (const int column = place_[whole.column()[at]]; column >= 0) {
+      if (const int column = place[whole.column()[at]]; column >= 0) {
         part.column.push_back(column);
         from_.push_back(at);
       }
@@ -53,15 +51,17 @@ bool InterfaceBand::factor(const double* blocks) {
   return factors_.factor(part.data());
 }
 
-const double* InterfaceBand::right_side(const double* b) {
-  double* sum = sum_.data();
-  std::copy_n(b, sum_.size(), sum);
-  coupling_.subtract_product([&](mesh::Index c, float* to) { factors_.solve_row(place_[c], five(b, c), to); }, sum);
-  for (size_t i = 0; i < cells_.size(); ++i) std::copy_n(five(sum, cells_[i]), kVariables, five(b_.data(), i));
-  factors_.solve(b_.data(), x_.data());
-  for (const mesh::Index c : cells_) std::copy_n(five(b, c), kVariables, five(sum, c));
-  coupling_.subtract_product([&](mesh::Index c, float* to) { std::copy_n(five(x_.data(), place_[c]), kVariables, to); }, sum);
-  return sum;
+ChangedRows InterfaceBand::right_side(const double* b) {
+  const std::vector<mesh::Index>& cells = coupling_.cells();
+  const auto subtract_product = [&](const auto& at) {
+    for (size_t i = 0; i < cells.size(); ++i) std::copy_n(five(b, cells[i]), kVariables, five(changed_.data(), i));
+    coupling_.subtract_product(at, changed_.data());
+  };
+  subtract_product([&](size_t i, float* to) { factors_.solve_row(at_interface_[i], five(b, cells[i]), to); });
+  for (size_t i = 0; i < cells_.size(); ++i) std::copy_n(five(b, cells_[i]), kVariables, five(b_.data(), i));
+  factors_.solve(b_.data(), x_.data(), {at_interface_, changed_.data()});
+  subtract_product([&](size_t i, float* to) { std::copy_n(five(x_.data(), at_interface_[i]), kVariables, to); });
+  return {cells, changed_.data()};
 }
 
 }  // namespace windhover::fluid

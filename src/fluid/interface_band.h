@@ -16,9 +16,9 @@ class InterfaceBand {
 
   /// Blocks of the whole matrix. False: some pivot cannot be inverted.
   bool factor(const double* blocks);
-  /// b − C x, five values per owned cell, with B x = b − C D⁻¹ b by incomplete factors of B, A's part near an interface, and D
-  /// their pivots. Valid until the next call. Collective.
-  const double* right_side(const double* b);
+  /// b − C x where that is not b, with B x = b − C D⁻¹ b by incomplete factors of B, A's part near an interface, and D
+  /// their pivots. b: five values per owned cell. Valid until the next call. Collective.
+  ChangedRows right_side(const double* b);
 
  private:
   struct Pattern {
@@ -27,11 +27,12 @@ class InterfaceBand {
   Pattern cut(const BlockPattern& whole);
 
   InterfaceCoupling& coupling_;
-  std::vector<mesh::Index> cells_;  ///< near an interface, ascending
-  std::vector<int> place_;          ///< of each owned cell among them, or −1
-  std::vector<int> from_;           ///< where each block of B is in the whole matrix
+  std::vector<mesh::Index> cells_;    ///< near an interface, ascending
+  std::vector<int> from_;             ///< where each block of B is in the whole matrix
   BlockIlu factors_;
-  std::vector<double> sum_, b_, x_;  ///< for all owned cells; for those near an interface
+  std::vector<int> at_interface_;     ///< places among cells_ of those at an interface
+  std::vector<double> changed_;       ///< five values of each of these
+  std::vector<double> b_, x_;         ///< of cells_
 };
 
 }  // namespace windhover::fluid

@@ -1,7 +1,6 @@
 // How the cells on both sides of a sliding interface act on each other: what the assembled Jacobian cannot hold, since
 // they are others at every step.
 #pragma once
-#include <memory>
 #include <vector>
 
 #include "base/mpi_type.h"
@@ -16,24 +15,31 @@ class InterfaceCoupling {
 
   /// C = scale dR/dq of the first-order scheme between zones, in the axes from which `turn` leads to those of `frames`.
   void renew(Vec q, const Frames& frames, double scale, const ZoneTurn& turn);
-  /// This rank's cells at an interface and so many layers of neighbours, ascending.
+  /// This rank's cells at an interface, ascending.
+  const std::vector<mesh::Index>& cells() const { return cells_; }
+  /// These and so many layers of neighbours, ascending.
   std::vector<mesh::Index> cells_within(int layers) const;
-  /// sum −= C x, five values per owned cell. x is asked for where it counts: at(cell, to) writes the five floats of an
-  /// owned cell. Collective.
+  /// sum −= C x; sum: five values of each of cells(). x is asked for: at(i, to) writes the five floats of cells()[i]. Collective.
   template <class At>
   void subtract_product(At&& at, double* sum) {
-    for (const mesh::Index c : cells_) at(c, x_.get() + size_t(kVariables) * c);
+    for (size_t i = 0; i < cells_.size(); ++i) at(i, x_.data() + kVariables * i);
     subtract_product(sum);
   }
 
  private:
+  void set_up_exchange();
+  /// Of a row of SlidingFaces among the cells at interfaces.
+  mesh::Index place(mesh::Index row) const;
   void subtract_product(double* sum);
 
   EulerOperator& euler_;
   MpiType five_{kVariables, MPI_FLOAT};
-  std::vector<InterfaceBlock> blocks_;
   std::vector<mesh::Index> cells_;  ///< owned, at an interface
-  std::unique_ptr<float[]> x_;      ///< five per row of SlidingFaces; only those at an interface are ever touched
+  std::vector<mesh::Index> place_;  ///< of an owned cell among them
+  SfHandle others_;                 ///< from their ranks' cells_ to what follows those here
+  // what an application touches is numbered without gaps, or it would wait for memory at every block
+  std::vector<InterfaceBlock> blocks_;  ///< rows and columns by place()
+  std::vector<float> x_;                ///< five each of cells_ and of other ranks' cells at interfaces
 };
 
 }  // namespace windhover::fluid

@@ -100,6 +100,21 @@ TEST_CASE("Incomplete factors are PETSc's, to the digits of bfloat16") {
   CHECK(difference(x, petsc_solution(matrix, PCLU, 0, b)) < kRounding);
 }
 
+TEST_CASE("Rows of the right side can be changed") {
+  const RandomMatrix matrix(5);
+  BlockIlu ilu(kRows, matrix.start.data(), matrix.column.data(), 1);
+  REQUIRE(ilu.factor(matrix.blocks.data()));
+  std::vector<double> b(5 * kRows), x(b.size()), expected(b.size()), values;
+  for (size_t i = 0; i < b.size(); ++i) b[i] = std::sin(1.0 + double(i));
+  const std::vector<int> rows = {0, 3, 4, kRows - 1};
+  std::vector<double> changed = b;
+  for (const int row : rows)
+    for (int k = 0; k < 5; ++k) values.push_back(changed[5 * row + k] = std::cos(double(row + k)));
+  ilu.solve(changed.data(), expected.data());
+  ilu.solve(b.data(), x.data(), {rows, values.data()});
+  CHECK(x == expected);
+}
+
 TEST_CASE("Factors can be made again, and tell of a block that has no inverse") {
   RandomMatrix matrix(4);
   BlockIlu ilu(kRows, matrix.start.data(), matrix.column.data(), 1);
