@@ -172,7 +172,7 @@ void exchange(Part& a, Part& b, std::integer_sequence<int, k...>) {
 }
 
 template <int width, int half = width / 2, class Part>
-void transpose_square(Part* rows) {
+[[gnu::always_inline]] inline void transpose_square(Part* rows) {
   for (int i = 0; i < width; ++i)
     if (!(i & half)) exchange<half>(rows[i], rows[i + half], std::make_integer_sequence<int, width>());
   if constexpr (half > 1) transpose_square<width, half / 2>(rows);
@@ -248,7 +248,7 @@ inline Pack widened(const PackOf<float>& a) {
 
 /// Rows become columns: out[i][j] = in[j][i].
 template <class Number>
-void transpose(const PackOf<Number> in[8], PackOf<Number> out[8]) {
+[[gnu::always_inline]] inline void transpose(const PackOf<Number> in[8], PackOf<Number> out[8]) {
   using P = PackOf<Number>;
   constexpr int width = P::kWidth;
   for (int r = 0; r < P::kParts; ++r)
@@ -269,7 +269,7 @@ PackOf<Number> window(const Number* sixteen) {
 
 /// The first five lanes of each, one after the other in sixteen numbers (64-byte aligned); the last means nothing.
 template <class Number>
-void store_fives(const PackOf<Number>& a, const PackOf<Number>& b, const PackOf<Number>& c, Number* sixteen) {
+[[gnu::always_inline]] inline void store_fives(const PackOf<Number>& a, const PackOf<Number>& b, const PackOf<Number>& c, Number* sixteen) {
   using P = PackOf<Number>;
   constexpr int width = P::kWidth;
   if constexpr (width == 8) {

@@ -146,8 +146,7 @@ void EulerOperator::hold(Vec q, const Frames& frames) {
 void EulerOperator::prepare(Vec q, const Frames& frames) {
   if (holds(q, frames)) return;
   fill_cells(q, frames);
-  exchange_halo(state_);
-  update_gradients(state_);
+  complete(state_);
 }
 
 /// From own rows of the cells. The zones' own faces and boundaries come while other ranks' rows at interfaces are under way.
@@ -155,8 +154,7 @@ template <class Number>
 void EulerOperator::sum_rates(CellFields<Number>& fields, const Frames& frames, FluxKernels::Sum<Number> interior,
                               BoundaryKernels::Sum<Number> boundary) {
   RowOf<Number>* const rates = this->rates<Number>();
-  exchange_halo(fields);
-  update_gradients(fields);
+  complete(fields);
   begin_interfaces(fields);
   const auto between_cells = [&](const FaceInput& in, const mesh::FaceBlock* blocks, int n) {
     interior(in, blocks, n, rates);

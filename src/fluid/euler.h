@@ -158,9 +158,11 @@ class EulerOperator {
   void hold(Vec q, const Frames& frames);
   void load_cells(Vec q, const Frames& frames);
   template <class Number>
-  void exchange_halo(CellFields<Number>& fields) const;
+  void begin_halo(CellFields<Number>& fields) const;
   template <class Number>
-  void update_gradients(CellFields<Number>& fields) const;
+  void end_halo(CellFields<Number>& fields) const;
+  template <class Number>
+  void complete(CellFields<Number>& fields) const;
   template <class Number>
   void begin_interfaces(CellFields<Number>& fields) const;
   template <class Number>

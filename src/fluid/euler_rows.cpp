@@ -163,15 +163,24 @@ void EulerOperator::round_state() {
 }
 
 template <class Number>
-void EulerOperator::exchange_halo(CellFields<Number>& fields) const {
+void EulerOperator::begin_halo(CellFields<Number>& fields) const {
   const MpiType& row = std::get<RowTypes<Number>>(types_).row;
   petsc(PetscSFBcastBegin(mesh_.halo, row, fields.cells.data(), fields.cells.data(), MPI_REPLACE));
-  petsc(PetscSFBcastEnd(mesh_.halo, row, fields.cells.data(), fields.cells.data(), MPI_REPLACE));
 }
 
 template <class Number>
-void EulerOperator::update_gradients(CellFields<Number>& fields) const {
-  if (green_gauss_) green_gauss_->apply(fields.cells.data(), fields.gradients.data());
+void EulerOperator::end_halo(CellFields<Number>& fields) const {
+  const MpiType& row = std::get<RowTypes<Number>>(types_).row;
+  petsc(PetscSFBcastEnd(mesh_.halo, row, fields.cells.data(), fields.cells.data(), MPI_REPLACE));
+}
+
+/// Rows of neighbours' cells, and gradients, from own rows.
+template <class Number>
+void EulerOperator::complete(CellFields<Number>& fields) const {
+  begin_halo(fields);
+  if (green_gauss_) green_gauss_->begin(fields.cells.data());
+  end_halo(fields);
+  if (green_gauss_) green_gauss_->end(fields.cells.data(), fields.gradients.data());
   if (least_squares_) least_squares_->apply(fields.cells.data(), fields.gradients.data());
 }
 
@@ -190,8 +199,7 @@ void EulerOperator::end_interfaces(CellFields<Number>& fields) const {
 }
 
 #define WINDHOVER_FIELDS_OF(Number)                                         \
-  template void EulerOperator::exchange_halo(CellFields<Number>&) const;    \
-  template void EulerOperator::update_gradients(CellFields<Number>&) const; \
+  template void EulerOperator::complete(CellFields<Number>&) const;         \
   template void EulerOperator::begin_interfaces(CellFields<Number>&) const; \
   template void EulerOperator::end_interfaces(CellFields<Number>&) const;
 WINDHOVER_FIELDS_OF(double)
@@ -202,7 +210,8 @@ WINDHOVER_FIELDS_OF(float)
 void EulerOperator::load_cells(Vec q, const Frames& frames) {
   if (holds(q, frames)) return;
   fill_cells(q, frames);
-  exchange_halo(state_);
+  begin_halo(state_);
+  end_halo(state_);
   const MpiType& row = std::get<RowTypes<double>>(types_).row;
   sliding_.begin_exchange(state_.cells.data(), row);
   sliding_.end_exchange(state_.cells.data(), row);

@@ -46,8 +46,9 @@ void green_gauss_coefficients(mesh::CellType type, const Vec3* points, double vo
   }
 }
 
-/// node → (cell, the cell's point for that node) for the nodes of cells that need gradients.
+/// node → (cell, the cell's point for that node) for the nodes of cells that need gradients; nodes of own cells alone first.
 struct NodeCells {
+  int n_inner = 0;
   std::vector<int> start, cell, point;
   std::vector<int> used;  // mesh node → node here, or -1
 };
@@ -55,10 +56,16 @@ struct NodeCells {
 NodeCells collect_node_cells(const Mesh& m) {
   NodeCells n;
   n.used.assign(m.n_nodes, -1);
+  std::vector<char> outer(m.n_nodes, false);  // has other ranks' cells
+  for (Index k = m.cell_point_start[m.n_owned]; k < m.cell_point_start[m.n_cells]; ++k)
+    outer[m.point_node[m.cell_point[k]]] = true;
   int count = 0;
-  for (Index k = 0; k < m.cell_point_start[m.n_gradient]; ++k) {
-    int& u = n.used[m.point_node[m.cell_point[k]]];
-    if (u < 0) u = count++;
+  for (const bool kind : {false, true}) {
+    for (Index k = 0; k < m.cell_point_start[m.n_gradient]; ++k) {
+      const Index node = m.point_node[m.cell_point[k]];
+      if (n.used[node] < 0 && outer[node] == kind) n.used[node] = count++;
+    }
+    if (!kind) n.n_inner = count;
   }
   n.start.assign(count + 1, 0);
   const auto node_of = [&](Index k) { return n.used[m.point_node[m.cell_point[k]]]; };
@@ -118,6 +125,7 @@ GreenGauss::GreenGauss(const Mesh& m) {
     }
     cell_start_.push_back(static_cast<int>(cell_node_.size()));
   }
+  n_inner_ = nodes.n_inner;
   node_start_ = std::move(nodes.start);
   node_cell_ = std::move(nodes.cell);
   use_large_pages(node_cell_);
@@ -127,18 +135,14 @@ GreenGauss::GreenGauss(const Mesh& m) {
   if (!ill_conditioned.empty()) exceptions_.emplace(m, std::move(ill_conditioned));
 }
 
+/// Fills the rows of these nodes.
 template <class Number>
-void GreenGauss::apply(const RowOf<Number>* cells, GradientRowOf<Number>* gradients) const {
+void GreenGauss::average(int first, int last, const RowOf<Number>* cells) const {
   using P = PackOf<Number>;
-  constexpr int kEntriesAhead = 64, kCellsAhead = 12;  // asked for before they are needed
+  constexpr int kEntriesAhead = 64;  // asked for before they are needed
   const int last_entry = static_cast<int>(node_cell_.size()) - 1;
-  const int n_nodes = static_cast<int>(node_start_.size()) - 1;
   auto& node_rows = std::get<NodeRows<Number>>(node_rows_);
-  if (node_rows.empty()) {
-    node_rows.resize(n_nodes);
-    use_large_pages(node_rows);
-  }
-  for (int i = 0; i < n_nodes; ++i) {
+  for (int i = first; i < last; ++i) {
     P sum(0.0);
     for (int k = node_start_[i]; k < node_start_[i + 1]; ++k) {
       __builtin_prefetch(&cells[node_cell_[std::min(k + kEntriesAhead, last_entry)]]);
@@ -146,6 +150,24 @@ void GreenGauss::apply(const RowOf<Number>* cells, GradientRowOf<Number>* gradie
     }
     sum.store(node_rows[i].v);
   }
+}
+
+template <class Number>
+void GreenGauss::begin(const RowOf<Number>* cells) const {
+  auto& node_rows = std::get<NodeRows<Number>>(node_rows_);
+  if (node_rows.empty()) {
+    node_rows.resize(node_start_.size() - 1);
+    use_large_pages(node_rows);
+  }
+  average(0, n_inner_, cells);
+}
+
+template <class Number>
+void GreenGauss::end(const RowOf<Number>* cells, GradientRowOf<Number>* gradients) const {
+  using P = PackOf<Number>;
+  average(n_inner_, static_cast<int>(node_start_.size()) - 1, cells);
+  const auto& node_rows = std::get<NodeRows<Number>>(node_rows_);
+  constexpr int kCellsAhead = 12;
   const int n_cells = static_cast<int>(cell_start_.size()) - 1;
   for (int c = 0; c < n_cells; ++c) {
     const int ahead = std::min(c + kCellsAhead, n_cells - 1);
@@ -161,8 +183,10 @@ void GreenGauss::apply(const RowOf<Number>* cells, GradientRowOf<Number>* gradie
   if (exceptions_) exceptions_->apply(cells, gradients);
 }
 
-template void GreenGauss::apply(const RowOf<double>*, GradientRowOf<double>*) const;
-template void GreenGauss::apply(const RowOf<float>*, GradientRowOf<float>*) const;
+template void GreenGauss::begin(const RowOf<double>*) const;
+template void GreenGauss::begin(const RowOf<float>*) const;
+template void GreenGauss::end(const RowOf<double>*, GradientRowOf<double>*) const;
+template void GreenGauss::end(const RowOf<float>*, GradientRowOf<float>*) const;
 
 namespace {
 

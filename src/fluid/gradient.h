@@ -36,10 +36,23 @@ class LeastSquares {
 class GreenGauss {
  public:
   explicit GreenGauss(const mesh::Mesh& mesh);
+  /// As LeastSquares.
   template <class Number>
-  void apply(const RowOf<Number>* cells, GradientRowOf<Number>* gradients) const;
+  void apply(const RowOf<Number>* cells, GradientRowOf<Number>* gradients) const {
+    begin(cells);
+    end(cells, gradients);
+  }
+  /// The same in two parts: the first needs this rank's own cells alone, and may come while the others are under way.
+  template <class Number>
+  void begin(const RowOf<Number>* cells) const;
+  template <class Number>
+  void end(const RowOf<Number>* cells, GradientRowOf<Number>* gradients) const;
 
  private:
+  template <class Number>
+  void average(int first, int last, const RowOf<Number>* cells) const;
+
+  int n_inner_;                  // nodes of own cells alone, which come first
   std::vector<int> node_start_;  // of each node used, into the next two
   std::vector<int> node_cell_;
   std::vector<double> node_weight_;
