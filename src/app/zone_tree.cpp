@@ -45,7 +45,9 @@ mesh::SlidingSurface surface_of(const ZoneOptions& zone, double length) {
 
 ZonedMesh read_zones(const Case& c, MPI_Comm comm) {
   const double length = c.fluid.length_m, scale = c.mesh.scale_m / length;
-  ZonedMesh z{mesh::read_mesh(c.mesh.file, scale, comm), {}};
+  std::set<std::string> sliding;
+  for (const ZoneOptions& zone : c.zone) sliding.insert({zone.inner_surface, zone.outer_surface});
+  ZonedMesh z{mesh::read_mesh(c.mesh.file, scale, comm, sliding), {}};
   std::vector<mesh::SlidingPair> pairs;
   std::set<int> claimed;
   for (size_t i = 0; i < c.zone.size(); ++i) {

@@ -1,5 +1,7 @@
 // From the whole mesh on rank 0 to a part on each rank: its own cells and the halo around them.
 #pragma once
+#include <set>
+#include <string>
 #include <vector>
 
 #include "mesh/file_mesh.h"
@@ -15,6 +17,7 @@ struct MeshPart {
 };
 
 /// Collective. The cells are given on rank 0; divided by PTSCOTCH over the face neighbours, where cells are large.
-MeshPart distribute(const std::vector<FileCell>& cells, MPI_Comm comm);
+/// Collective; the mesh is rank 0's. Faces on the surfaces named in `sliding` (the same on all ranks) are known to take work.
+MeshPart distribute(const FileMesh& whole, const std::set<std::string>& sliding, MPI_Comm comm);
 
 }  // namespace windhover::mesh

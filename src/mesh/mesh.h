@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,6 @@ struct Mesh {
 /// (boundary face without physical surface); inverted or flat cell; cell without physical volume (unless there is no
 /// physical volume at all: then one zone "domain"); faces between zones without a name, or a named surface inside a zone;
 /// periodic surfaces that are no translations, badly matched, or less than three cells apart.
-Mesh read_mesh(const std::string& file, double scale, MPI_Comm comm);
+Mesh read_mesh(const std::string& file, double scale, MPI_Comm comm, const std::set<std::string>& sliding = {});
 
 }  // namespace windhover::mesh

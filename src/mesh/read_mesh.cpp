@@ -107,12 +107,12 @@ void fill_cells(const MeshPart& part, const Numbering& numbering, Mesh& mesh) {
   mesh.point_node.shrink_to_fit();
 }
 
-Mesh build_mesh(const std::string& file, double scale, MPI_Comm comm) {
+Mesh build_mesh(const std::string& file, double scale, MPI_Comm comm, const std::set<std::string>& sliding) {
   Mesh mesh;
   mesh.comm = comm;
   FileMesh whole = read_and_check(file, scale, comm);
   share_lists(whole, mesh);
-  const MeshPart part = distribute(whole.cells, comm);
+  const MeshPart part = distribute(whole, sliding, comm);
   whole = {};  // gives its memory back
   Numbering numbering = number_cells(part, comm);
   mesh.n_owned = part.n_owned;
@@ -129,8 +129,8 @@ Mesh build_mesh(const std::string& file, double scale, MPI_Comm comm) {
 
 }  // namespace
 
-Mesh read_mesh(const std::string& file, double scale, MPI_Comm comm) {
-  Mesh mesh = build_mesh(file, scale, comm);
+Mesh read_mesh(const std::string& file, double scale, MPI_Comm comm, const std::set<std::string>& sliding) {
+  Mesh mesh = build_mesh(file, scale, comm, sliding);
   release_free_memory();  // reading takes several times what is kept
   use_large_pages(mesh.faces);
   use_large_pages(mesh.centroid);
