@@ -68,6 +68,10 @@ def rotor(work, refine):
     return Flow(ROTOR, work / name, [f"mesh.file={work / name}.msh", f"mesh.refine={refine}"], 437)
 
 
+def quadcopter_flow(work):
+    return Flow(QUADCOPTER, work / "quadcopter", [f"mesh.file={work / 'quadcopter.msh'}", "wind.velocity_m_s=[-5, 0, 0]"], 60)
+
+
 def steps(work, tell):
     """A revolution with steps of each size, from the same flow."""
     for degrees in (1, 2, 5, 10, 20):
@@ -94,9 +98,10 @@ def growth(work, tell):
 
 def ranks(work, tell):
     """One and two ranks in turn."""
-    for _ in range(3):
-        for n in (1, 2):
-            tell(rotor(work, 1.75).go_on(24, ranks=n))
+    for flow in (rotor(work, 1.75), quadcopter_flow(work)):
+        for _ in range(3):
+            for n in (1, 2):
+                tell(flow.go_on(24, ranks=n), case=flow.case.parent.name)
 
 
 def small_steps(work, tell, flow, degrees, explicit_degrees, sets=()):
@@ -114,7 +119,7 @@ def rotor_baselines(work, tell):
 
 def quadcopter(work, tell):
     """Strong and loose coupling at 10° in turn, then the baselines, loosely coupled as in the paper."""
-    flow = Flow(QUADCOPTER, work / "quadcopter", [f"mesh.file={work / 'quadcopter.msh'}", "wind.velocity_m_s=[-5, 0, 0]"], 60)
+    flow = quadcopter_flow(work)
     for _ in range(2):
         for scheme in ("strong", "loose"):
             tell(flow.go_on(30, [f"coupling.scheme={scheme}"]), method=scheme, degrees=10)

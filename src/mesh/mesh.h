@@ -72,6 +72,7 @@ struct Mesh {
 /// (boundary face without physical surface); inverted or flat cell; cell without physical volume (unless there is no
 /// physical volume at all: then one zone "domain"); faces between zones without a name, or a named surface inside a zone;
 /// periodic surfaces that are no translations, badly matched, or less than three cells apart.
+/// `sliding`: names of surfaces where zones slide on each other; the division between ranks counts what their faces take.
 Mesh read_mesh(const std::string& file, double scale, MPI_Comm comm, const std::set<std::string>& sliding = {});
 
 }  // namespace windhover::mesh
