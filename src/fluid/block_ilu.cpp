@@ -14,8 +14,6 @@
 namespace windhover::fluid {
 namespace {
 
-using fluid::times;
-
 constexpr int kSize = 5, kEntries = kSize * kSize, kPadded = 8;
 
 void store(const Column& c, float* p) { std::memcpy(p, &c, sizeof c); }
@@ -53,10 +51,9 @@ Column times(const Bfloat16* block, const float* x) {
 }
 
 /// Blocks, and room for what is read after the last.
-template <class Number>
-std::unique_ptr<Number[]> allocate_blocks(size_t count) {
-  auto blocks = std::make_unique<Number[]>(count * kEntries + kPadded);
-  use_large_pages(blocks.get(), count * kEntries * sizeof(Number));
+std::unique_ptr<Bfloat16[]> allocate_blocks(size_t count) {
+  auto blocks = std::make_unique<Bfloat16[]>(count * kEntries + kPadded);
+  use_large_pages(blocks.get(), count * kEntries * sizeof(Bfloat16));
   return blocks;
 }
 
@@ -97,9 +94,8 @@ Padded unpack(const Bfloat16* block) {
   return {first_of(left), second_of(left), first_of(right), second_of(right), last_column(block)};
 }
 
-/// factor · block; factor: a Padded, or 25 floats by columns.
-template <class Factor>
-Padded product(const Factor& factor, const Padded& block) {
+/// factor · block
+Padded product(const Padded& factor, const Padded& block) {
   Padded result;
   for (int k = 0; k < kSize; ++k) {
     float entries[kPadded];
@@ -110,14 +106,14 @@ Padded product(const Factor& factor, const Padded& block) {
 }
 
 /// False: has no inverse.
-bool invert(const Padded& block, float* to) {
+bool invert(const Padded& block, Padded& to) {
   double inverse[kEntries], work[kEntries];
   PetscInt pivots[kSize];
   PetscBool singular = PETSC_FALSE;
   for (int j = 0; j < kSize; ++j)
     for (int i = 0; i < kSize; ++i) inverse[kSize * j + i] = block.column[j][i];
   petsc(PetscKernel_A_gets_inverse_A_5(inverse, pivots, work, 0, PETSC_TRUE, &singular));
-  std::copy_n(inverse, kEntries, to);
+  for (int j = 0; j < kSize; ++j) to.column[j] = rounded(&inverse[kSize * j]);
   return !singular && std::all_of(inverse, inverse + kEntries, [](double x) { return std::isfinite(x); });
 }
 
@@ -152,14 +148,14 @@ class Chain {
 
 }  // namespace
 
-void BlockIlu::Triangle::allocate() { block = allocate_blocks<Bfloat16>(column.size()); }
+void BlockIlu::Triangle::allocate() { block = allocate_blocks(column.size()); }
 
 BlockIlu::BlockIlu(int n, const int* start, const int* column, int levels)
     : n_(n), given_start_(start, start + n + 1), given_column_(column, column + start[n]) {
   find_pattern(start, column, levels);
   lower_.allocate();
   upper_.allocate();
-  pivot_ = allocate_blocks<float>(n);
+  pivot_ = allocate_blocks(n);
   work_.resize(static_cast<size_t>(n) * kPadded);
 }
 
@@ -207,9 +203,7 @@ bool BlockIlu::factor(const double* blocks) {
         row[place[given_column_[at]]].column[c] = rounded(blocks + size_t(at) * kEntries + kSize * c);
     for (int j = 0; j < n_below; ++j) {
       const int k = lower_.column[below + j];
-      Padded factor;
-      for (int c = 0; c < kSize; ++c) factor.column[c] = times(row[j], &pivot_[size_t(k) * kEntries + kSize * c]);
-      pack(factor, &lower_.block[(below + j) * kEntries]);
+      pack(product(row[j], unpack(&pivot_[size_t(k) * kEntries])), &lower_.block[(below + j) * kEntries]);
       for (size_t at = upper_.start[k]; at < upper_.start[k + 1]; ++at) {
         const int to = place[upper_.column[at]];
         if (to < 0) continue;  // fill of a higher level
@@ -217,10 +211,11 @@ bool BlockIlu::factor(const double* blocks) {
         for (int c = 0; c < kSize; ++c) row[to].column[c] -= update.column[c];
       }
     }
-    float* pivot = &pivot_[size_t(i) * kEntries];
+    Padded pivot;
     regular = invert(row[n_below], pivot) && regular;
+    pack(pivot, &pivot_[size_t(i) * kEntries]);
     for (int j = 0; j < n_above; ++j)
-      pack(product<const float*>(pivot, row[n_below + 1 + j]), &upper_.block[(above + j) * kEntries]);
+      pack(product(pivot, row[n_below + 1 + j]), &upper_.block[(above + j) * kEntries]);
     for (int j = 0; j < n_below; ++j) place[lower_.column[below + j]] = -1;
     place[i] = -1;
     for (int j = 0; j < n_above; ++j) place[upper_.column[above + j]] = -1;

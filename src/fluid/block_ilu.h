@@ -39,9 +39,9 @@ class BlockIlu {
 
   int n_;
   std::vector<int> given_start_, given_column_;
-  Triangle lower_, upper_;          ///< L and D⁻¹U, without their unit diagonals
-  std::unique_ptr<float[]> pivot_;  ///< D⁻¹, inverses of U's diagonal blocks
-  std::vector<float> work_;         ///< eight numbers a row, of which five count
+  Triangle lower_, upper_;                  ///< L and D⁻¹U, without their unit diagonals
+  std::unique_ptr<std::uint16_t[]> pivot_;  ///< D⁻¹, inverses of U's diagonal blocks
+  std::vector<float> work_;                 ///< eight numbers a row, of which five count
 };
 
 }  // namespace windhover::fluid

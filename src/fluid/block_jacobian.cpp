@@ -47,17 +47,17 @@ void BlockJacobian::find_slots(const mesh::Mesh& mesh) {
   std::optional<BlockPattern> outside;
   if (parts.outside) outside.emplace(parts.outside);
   const auto slot = [&](Index row, Index column) -> Slot {
-    if (row >= mesh.n_owned) return {};
-    if (column < mesh.n_owned) return {inside.find(row, column), false};
+    if (row >= mesh.n_owned) return kNone;
+    if (column < mesh.n_owned) return inside.find(row, column);
     const PetscInt* end = parts.outside_columns + parts.n_outside;
     const auto local = std::lower_bound(parts.outside_columns, end, mesh.global_cell[column]) - parts.outside_columns;
-    return {outside->find(row, static_cast<Index>(local)), true};
+    return ~outside->find(row, static_cast<Index>(local));
   };
+  face_.reserve(mesh.faces.size() * mesh::kLanes);
   for (const auto& b : mesh.faces)
     for (int i = 0; i < mesh::kLanes; ++i) {
       const Index l = b.cell[0][i], r = b.cell[1][i];
-      face_.push_back(i < b.count ? std::array<Slot, 4>{slot(l, l), slot(l, r), slot(r, l), slot(r, r)}
-                                  : std::array<Slot, 4>{});
+      face_.push_back(i < b.count ? std::array{slot(l, r), slot(r, l)} : std::array{kNone, kNone});
     }
   for (Index c = 0; c < mesh.n_owned; ++c) diagonal_.push_back(inside.find(c, c));
 }
@@ -68,23 +68,22 @@ void BlockJacobian::begin() {
   if (block_parts(matrix_).outside) petsc(MatSeqBAIJGetArray(block_parts(matrix_).outside, &outside_));
 }
 
-void BlockJacobian::add_face(size_t face, int side, const double* block, double scale) {
+void BlockJacobian::add_face(size_t face, const Cells& cells, int side, const double* block, double scale) {
   for (int row = 0; row < 2; ++row) {
-    const Slot& s = face_[face][2 * row + side];
-    if (s.offset < 0) continue;
-    double* to = block_at(s);
+    double* to = row == side ? diagonal(cells[row]) : neighbour(face_[face][row]);
+    if (!to) continue;
     const double sign = row == 0 ? scale : -scale;
     for (int k = 0; k < kEntries; ++k) to[k] += sign * block[k];
   }
 }
 
 void BlockJacobian::add_diagonal(Index cell, const double* block, double scale) {
-  double* to = inside_ + size_t(diagonal_[cell]) * kEntries;
+  double* to = diagonal(cell);
   for (int k = 0; k < kEntries; ++k) to[k] += scale * block[k];
 }
 
 void BlockJacobian::add_identity(Index cell, double value) {
-  double* to = inside_ + size_t(diagonal_[cell]) * kEntries;
+  double* to = diagonal(cell);
   for (int k = 0; k < kVariables; ++k) to[(kVariables + 1) * k] += value;
 }
 

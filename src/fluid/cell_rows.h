@@ -1,5 +1,5 @@
 // What faces read of cells, rows of eight numbers (rho, u, v, w, p, Mach², 0, 0), of doubles one cache line, and gradients;
-// the arms along which they do, and rows into which fluxes are summed.
+// and rows into which fluxes are summed.
 #pragma once
 #include "base/dual.h"
 #include "mesh/face_block.h"
@@ -27,26 +27,9 @@ struct alignas(64) GradientRowOf {
 };
 using GradientRow = GradientRowOf<double>;
 
-/// The arms of a block; in floats they are rounded a register at a time, where one for each product would take longer.
-template <class Number>
-struct ArmsOf {
-  alignas(64) Number of[mesh::kLanes][2][3];
-
-  explicit ArmsOf(const mesh::FaceBlock& b) {
-    for (int k = 0; k < 6 * mesh::kLanes; k += 8)
-      rounded_to<Number>(Pack::load(&b.arm[0][0][0] + k)).store(&of[0][0][0] + k);
-  }
-};
-template <>
-struct ArmsOf<double> {
-  const double (&of)[mesh::kLanes][2][3];
-
-  explicit ArmsOf(const mesh::FaceBlock& b) : of(b.arm) {}
-};
-
-/// The arms in T's numbers, and where fluxes of T are summed.
+/// Faces in T's numbers, and where fluxes of T are summed.
 template <class T>
-using ArmsFor = ArmsOf<typename NumberOf<T>::type>;
+using FaceBlockFor = mesh::FaceBlockOf<typename NumberOf<T>::type>;
 template <class T>
 using RateRow = RowOf<typename NumberOf<T>::type>;
 

@@ -156,15 +156,13 @@ void EulerOperator::sum_rates(CellFields<Number>& fields, const Frames& frames, 
   RowOf<Number>* const rates = this->rates<Number>();
   complete(fields);
   begin_interfaces(fields);
-  const auto between_cells = [&](const FaceInput& in, const mesh::FaceBlock* blocks, int n) {
-    interior(in, blocks, n, rates);
-  };
-  for_each_zone(frames, between_cells);
-  for_each_patch(frames, [&](const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int n, int) {
+  const auto between_cells = [&](const FaceInput& in, const auto* blocks, int n) { interior(in, blocks, n, rates); };
+  for_each_zone<Number>(frames, between_cells);
+  for_each_patch<Number>(frames, [&](const FaceInput& in, BoundaryKind kind, const auto* blocks, int n, int) {
     boundary(in, kind, blocks, n, rates);
   });
   end_interfaces(fields);
-  for_each_interface(frames, between_cells);
+  for_each_interface<Number>(frames, between_cells);
 }
 
 void EulerOperator::keep_rates() {

@@ -168,29 +168,44 @@ class EulerOperator {
   template <class Number>
   void end_interfaces(CellFields<Number>& fields) const;
   FaceInput face_input(const mesh::FrameState& frame) const;
+  /// The mesh's faces, of floats from the first time round_state() was called.
+  template <class Number>
+  const std::vector<mesh::FaceBlockOf<Number>>& zone_faces() const {
+    if constexpr (std::is_same_v<Number, float>)
+      return single_faces_.zones;
+    else
+      return mesh_.faces;
+  }
+  template <class Number>
+  const std::vector<mesh::FaceBlockOf<Number>>& patch_faces(size_t patch) const {
+    if constexpr (std::is_same_v<Number, float>)
+      return single_faces_.patches[patch];
+    else
+      return mesh_.patches[patch].blocks;
+  }
   /// Calls visit(input, blocks, count) for the faces inside each zone.
-  template <class Visit>
+  template <class Number = double, class Visit>
   void for_each_zone(const Frames& frames, Visit visit) const {
     for (size_t z = 0; z < frames.size(); ++z) {
       const mesh::Range& range = mesh_.zones[z].faces;
-      visit(face_input(frames[z]), mesh_.faces.data() + range.begin, static_cast<int>(range.size()));
+      visit(face_input(frames[z]), zone_faces<Number>().data() + range.begin, static_cast<int>(range.size()));
     }
   }
   /// Calls visit(input, kind, blocks, count, patch) for the faces of each patch.
-  template <class Visit>
+  template <class Number = double, class Visit>
   void for_each_patch(const Frames& frames, Visit visit) const {
     for (size_t p = 0; p < mesh_.patches.size(); ++p) {
-      const mesh::Patch& patch = mesh_.patches[p];
-      if (patch_kind_[p])
-        visit(face_input(frames[patch.zone]), *patch_kind_[p], patch.blocks.data(),
-              static_cast<int>(patch.blocks.size()), static_cast<int>(p));
+      if (!patch_kind_[p]) continue;
+      const auto& blocks = patch_faces<Number>(p);
+      visit(face_input(frames[mesh_.patches[p].zone]), *patch_kind_[p], blocks.data(), static_cast<int>(blocks.size()),
+            static_cast<int>(p));
     }
   }
   /// Calls visit(input, blocks, count) for the faces of each sliding interface that have a cell here.
-  template <class Visit>
+  template <class Number = double, class Visit>
   void for_each_interface(const Frames& frames, Visit visit) {
     if (sliding_.empty()) return;
-    const auto& interfaces = sliding_.faces(frames);
+    const auto& interfaces = sliding_.faces<Number>(frames);
     for (size_t i = 0; i < interfaces.size(); ++i)
       visit(face_input(frames[sliding_.frame_zone(i)]), interfaces[i].data(), static_cast<int>(interfaces[i].size()));
   }
@@ -216,6 +231,10 @@ class EulerOperator {
   std::optional<LeastSquares> least_squares_;
   CellFields<double> state_, derivative_;
   CellFields<float> state_single_, derivative_single_;  ///< from the first time they are asked for
+  struct {
+    std::vector<mesh::SingleFaceBlock> zones;
+    std::vector<std::vector<mesh::SingleFaceBlock>> patches;
+  } single_faces_;
   std::vector<Row> rates_;                              ///< zero but between sum_rates() and store_rates()
   /// The state whose rows and gradients are in state_, those of other ranks and at interfaces as well.
   struct {

@@ -51,11 +51,12 @@ void EulerOperator::first_order_jacobian(Vec q, const Frames& frames, double sca
     in.damping = damping;
     for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
       const size_t first = size_t(b - mesh_.faces.data()) * mesh::kLanes;
-      for (int i = 0; i < b->count; ++i) jacobian.prefetch_face(first + i);
+      const auto cells = [b](int i) { return BlockJacobian::Cells{b->cell[0][i], b->cell[1][i]}; };
+      for (int i = 0; i < b->count; ++i) jacobian.prefetch_face(first + i, cells(i));
       for (int s = 0; s < 2; ++s) {
         model_.flux->jacobian(in, *b, s, side);
         const LaneBlocks lanes(side);
-        for (int i = 0; i < b->count; ++i) jacobian.add_face(first + i, s, lanes.block[i], scale);
+        for (int i = 0; i < b->count; ++i) jacobian.add_face(first + i, cells(i), s, lanes.block[i], scale);
       }
     }
   });
@@ -78,6 +79,7 @@ void EulerOperator::interface_jacobian(Vec q, const Frames& frames, double scale
   round_state();
   result.clear();
   const auto& interfaces = sliding_.faces(frames);
+  const auto& singles = sliding_.faces<float>(frames);
   for (size_t i = 0; i < interfaces.size(); ++i) {
     const FaceInput in = face_input(frames[sliding_.frame_zone(i)]);
     Block back[2] = {Block::Identity(), Block::Identity()}, forth[2] = {Block::Identity(), Block::Identity()};
@@ -86,12 +88,13 @@ void EulerOperator::interface_jacobian(Vec q, const Frames& frames, double scale
       forth[s].block<3, 3>(1, 1) = turn.forth(sliding_.zones(i)[s]).cast<float>();
     }
     BlockPackOf<float> side;
-    for (const FaceBlock& b : interfaces[i])
+    for (size_t block = 0; block < interfaces[i].size(); ++block)
       for (int column = 0; column < 2; ++column) {
+        const FaceBlock& b = interfaces[i][block];
         const int row = 1 - column;
         const auto is_own = [&](int c) { return c < mesh_.n_owned; };
         if (std::none_of(b.cell[row], b.cell[row] + b.count, is_own)) continue;
-        model_.flux->jacobian_single(in, b, column, side);
+        model_.flux->jacobian_single(in, singles[i][block], column, side);
         const LaneBlocks lanes(side);
         const Block to = static_cast<float>(row == 0 ? scale : -scale) * back[row];
         for (int k = 0; k < b.count; ++k) {

@@ -151,7 +151,12 @@ template void EulerOperator::fill_derivatives(Vec, const ZoneTurn&, const CellFi
 /// state_single_ becomes the state that is held.
 void EulerOperator::round_state() {
   if (held_.single) return;
-  if (state_single_.cells.empty()) state_single_.resize(state_.cells.size(), state_.gradients.size());
+  if (state_single_.cells.empty()) {
+    state_single_.resize(state_.cells.size(), state_.gradients.size());
+    single_faces_.zones.assign(mesh_.faces.begin(), mesh_.faces.end());
+    use_large_pages(single_faces_.zones);
+    for (const mesh::Patch& p : mesh_.patches) single_faces_.patches.emplace_back(p.blocks.begin(), p.blocks.end());
+  }
   const auto round = [](const auto& from, auto& to) {
     for (size_t i = 0; i < from.size(); ++i)
       for (size_t k = 0; k < std::size(from[i].v); k += 8)

@@ -38,11 +38,10 @@ struct FaceGeometry {
 };
 
 template <class P>
-FaceGeometry<P> face_geometry(const FaceInput& in, const mesh::FaceBlock& b) {
+FaceGeometry<P> face_geometry(const FaceInput& in, const FaceBlockFor<P>& b) {
   using Number = typename NumberOf<P>::type;
   P a[3], m[3];
-  for (int k = 0; k < 3; ++k)
-    a[k] = rounded_to<Number>(Pack::load(b.area[k])), m[k] = rounded_to<Number>(Pack::load(b.moment[k]));
+  for (int k = 0; k < 3; ++k) a[k] = P::load(b.area[k]), m[k] = P::load(b.moment[k]);
   const P swept = in.velocity[0] * a[0] + in.velocity[1] * a[1] + in.velocity[2] * a[2] +
                   in.angular_velocity[0] * m[0] + in.angular_velocity[1] * m[1] + in.angular_velocity[2] * m[2];
   const P squared = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
@@ -129,17 +128,17 @@ T least_row(const T& own) {
 
 /// The state of cell `side` of lane i, taken to the face without a limiter.
 template <Reconstruction R, class T>
-T face_row(const FaceInput& in, const mesh::FaceBlock& b, const ArmsFor<T>& arms, int i, int side) {
+T face_row(const FaceInput& in, const FaceBlockFor<T>& b, int i, int side) {
   const T own = Rows<T>::cell(in, b.cell[side][i]);
   if constexpr (R == Reconstruction::first_order) return own;
-  return maximum(own + Rows<T>::slope(in, b.cell[side][i], arms.of[i][side]), least_row(own));
+  return maximum(own + Rows<T>::slope(in, b.cell[side][i], b.arm[i][side]), least_row(own));
 }
 
 /// The states of both cells of lane i, taken to the face and limited against each other.
 template <class T>
-std::array<T, 2> limited_face_rows(const FaceInput& in, const mesh::FaceBlock& b, const ArmsFor<T>& arms, int i) {
+std::array<T, 2> limited_face_rows(const FaceInput& in, const FaceBlockFor<T>& b, int i) {
   const int l = b.cell[0][i], r = b.cell[1][i];
-  const auto *arm_l = arms.of[i][0], *arm_r = arms.of[i][1];
+  const auto *arm_l = b.arm[i][0], *arm_r = b.arm[i][1];
   const T own_l = Rows<T>::cell(in, l), own_r = Rows<T>::cell(in, r);
   const T change_l = Rows<T>::slope(in, l, arm_l), change_r = Rows<T>::slope(in, r, arm_r);
   // from the left centroid to the right one: along the own arm to the face, and back along the other's
@@ -158,29 +157,23 @@ Side<T> side_of(const T rows[8]) {
 
 /// One side without a limiter: boundaries, where there is nothing to limit against, and first order.
 template <Reconstruction R, class T>
-Side<T> face_side(const FaceInput& in, const mesh::FaceBlock& b, const ArmsFor<T>& arms, int side) {
+Side<T> face_side(const FaceInput& in, const FaceBlockFor<T>& b, int side) {
   T rows[8];
-  for (int i = 0; i < 8; ++i) rows[i] = face_row<R, T>(in, b, arms, i, side);
+  for (int i = 0; i < 8; ++i) rows[i] = face_row<R, T>(in, b, i, side);
   return side_of(rows);
 }
 
 template <Reconstruction R, class T>
-Side<T> face_side(const FaceInput& in, const mesh::FaceBlock& b, int side) {
-  return face_side<R, T>(in, b, ArmsFor<T>(b), side);
-}
-
-template <Reconstruction R, class T>
-std::array<Side<T>, 2> face_sides(const FaceInput& in, const mesh::FaceBlock& b) {
-  const ArmsFor<T> arms(b);
+std::array<Side<T>, 2> face_sides(const FaceInput& in, const FaceBlockFor<T>& b) {
   if constexpr (R == Reconstruction::limited) {
     T l[8], r[8];
     for (int i = 0; i < 8; ++i) {
-      const auto both = limited_face_rows<T>(in, b, arms, i);
+      const auto both = limited_face_rows<T>(in, b, i);
       l[i] = both[0], r[i] = both[1];
     }
     return {side_of(l), side_of(r)};
   } else {
-    return {face_side<R, T>(in, b, arms, 0), face_side<R, T>(in, b, arms, 1)};
+    return {face_side<R, T>(in, b, 0), face_side<R, T>(in, b, 1)};
   }
 }
 
@@ -217,15 +210,14 @@ void flux_rows(const Flux<T>& f, const P& area, P rows[8]) {
 /// Asks for what the next blocks need while this one is worked on: the geometry of the third block from here, and the
 /// next block's cells, which are scattered in memory. The processor's own prefetching finds neither in time.
 template <Reconstruction R, class T>
-void prefetch(const FaceInput& in, const mesh::FaceBlock* blocks, int left, const RateRow<T>* rates) {
+void prefetch(const FaceInput& in, const FaceBlockFor<T>* blocks, int left, const RateRow<T>* rates) {
   constexpr bool dual = !std::is_same_v<T, PackFor<T>>;
   using Number = typename NumberOf<T>::type;
   const CellRows<Number>& rows = in.rows_of<Number>();
-  constexpr int kDoubles = sizeof(mesh::FaceBlock) / sizeof(double);
   if (left > 3)
-    for (int k = 0; k < kDoubles; k += 8) __builtin_prefetch(reinterpret_cast<const double*>(blocks + 3) + k);
+    for (size_t k = 0; k < sizeof *blocks; k += 64) __builtin_prefetch(reinterpret_cast<const char*>(blocks + 3) + k);
   if (left < 2) return;
-  const mesh::FaceBlock& b = blocks[1];
+  const auto& b = blocks[1];
   for (int side = 0; side < 2; ++side)
     for (int i = 0; i < mesh::kLanes; ++i) {
       const int c = b.cell[side][i];
@@ -260,16 +252,16 @@ void add(RowOf<Number>& row, const PackOf<Number>& x) {
 
 /// Interior faces: rates[cell] += what leaves. T = Dual<PackOf<Number>> gives the derivative along d_cells.
 template <class FluxScheme, Reconstruction R, class T>
-[[gnu::flatten]] void sum_interior(const FaceInput& in, const mesh::FaceBlock* blocks, int count, RateRow<T>* rates) {
+[[gnu::flatten]] void sum_interior(const FaceInput& in, const FaceBlockFor<T>* blocks, int count, RateRow<T>* rates) {
   for (int k = 0; k < count; ++k) {
-    const mesh::FaceBlock& b = blocks[k];
+    const auto& b = blocks[k];
     prefetch<R, T>(in, blocks + k, count - k, rates);
     const auto face = face_geometry<PackFor<T>>(in, b);
     const auto [l, r] = face_sides<R, T>(in, b);
     const T mach = face_mach(l.mach_squared, r.mach_squared);
     PackFor<T> rows[8];
     flux_rows(flux_of<FluxScheme>(l.state, r.state, face.normal, mach, in.gamma), face.area, rows);
-    for (int i = 0; i < b.count; ++i) {
+    for (int i = 0; i < mesh::kLanes; ++i) {  // padding adds zeros
       add(rates[b.cell[0][i]], rows[i]);
       add(rates[b.cell[1][i]], -rows[i]);
     }
@@ -282,15 +274,15 @@ State<T> boundary_state(BoundaryKind kind, const State<T>& s, const FaceInput& i
 }
 
 template <Reconstruction R, class T>
-[[gnu::flatten]] void sum_boundary(const FaceInput& in, BoundaryKind kind, const mesh::FaceBlock* blocks, int count,
+[[gnu::flatten]] void sum_boundary(const FaceInput& in, BoundaryKind kind, const FaceBlockFor<T>* blocks, int count,
                                    RateRow<T>* rates) {
   for (int k = 0; k < count; ++k) {
-    const mesh::FaceBlock& b = blocks[k];
+    const auto& b = blocks[k];
     const auto face = face_geometry<PackFor<T>>(in, b);
     const State<T> inside = face_side<R, T>(in, b, 0).state;
     PackFor<T> rows[8];
     flux_rows(physical_flux(boundary_state(kind, inside, in, face.normal), face.normal, in.gamma), face.area, rows);
-    for (int i = 0; i < b.count; ++i) add(rates[b.cell[0][i]], rows[i]);
+    for (int i = 0; i < mesh::kLanes; ++i) add(rates[b.cell[0][i]], rows[i]);
   }
 }
 

@@ -11,7 +11,7 @@ using BlockPack = BlockPackOf<double>;
 
 struct FluxKernels {
   template <class Number>
-  using Sum = void (*)(const FaceInput&, const mesh::FaceBlock* blocks, int count, RowOf<Number>* rates);
+  using Sum = void (*)(const FaceInput&, const mesh::FaceBlockOf<Number>* blocks, int count, RowOf<Number>* rates);
   const char* name;
   bool needs_mach;                  ///< uses the relative Mach number even without the low-Mach option
   Sum<double> residual[3];          ///< by Reconstruction
@@ -19,7 +19,7 @@ struct FluxKernels {
   Sum<float> derivative_single[3];  ///< the same of rows of floats
   /// d(first-order flux)/d(conserved state) of one side, times the area; from rows of doubles and of floats.
   void (*jacobian)(const FaceInput&, const mesh::FaceBlock&, int side, BlockPack& block);
-  void (*jacobian_single)(const FaceInput&, const mesh::FaceBlock&, int side, BlockPackOf<float>& block);
+  void (*jacobian_single)(const FaceInput&, const mesh::SingleFaceBlock&, int side, BlockPackOf<float>& block);
 };
 
 extern const FluxKernels kRoeKernels, kHllcKernels, kSlau2Kernels;
@@ -49,7 +49,7 @@ void store_column(const Flux<Dual<P>>& f, const P& area, int k, std::array<P, kV
 }
 
 template <class FluxScheme, class Number>
-[[gnu::flatten]] void flux_jacobian(const FaceInput& in, const mesh::FaceBlock& b, int side,
+[[gnu::flatten]] void flux_jacobian(const FaceInput& in, const mesh::FaceBlockOf<Number>& b, int side,
                                     BlockPackOf<Number>& block) {
   using P = PackOf<Number>;
   const auto face = face_geometry<P>(in, b);

@@ -121,7 +121,7 @@ GreenGauss::GreenGauss(const Mesh& m) {
     for (int j = 0; j < n; ++j) {
       const Vec3 d = correction * coefficient[j];
       cell_node_.push_back(nodes.used[m.point_node[m.cell_point[first + j]]]);
-      coefficient_.push_back({d.x(), d.y(), d.z()});
+      if (j > 0) coefficient_.push_back({d.x(), d.y(), d.z()});
     }
     cell_start_.push_back(static_cast<int>(cell_node_.size()));
   }
@@ -172,11 +172,12 @@ void GreenGauss::end(const RowOf<Number>* cells, GradientRowOf<Number>* gradient
   for (int c = 0; c < n_cells; ++c) {
     const int ahead = std::min(c + kCellsAhead, n_cells - 1);
     for (size_t k = 0; k < 16; k += 64 / sizeof(Number)) __builtin_prefetch(gradients[ahead].v + k, 1);
-    for (int k = 0; k < 16; k += 8) __builtin_prefetch(coefficient_[cell_start_[ahead]].data() + k);
+    for (int k = 0; k < 16; k += 8) __builtin_prefetch(coefficient_[cell_start_[ahead] - ahead].data() + k);
+    const P base = P::load(node_rows[cell_node_[cell_start_[c]]].v);
     P g[3] = {0.0, 0.0, 0.0};
-    for (int k = cell_start_[c]; k < cell_start_[c + 1]; ++k) {
-      const P row = P::load(node_rows[cell_node_[k]].v);
-      for (int d = 0; d < 3; ++d) g[d] += coefficient_[k][d] * row;
+    for (int k = cell_start_[c] + 1; k < cell_start_[c + 1]; ++k) {
+      const P difference = P::load(node_rows[cell_node_[k]].v) - base;
+      for (int d = 0; d < 3; ++d) g[d] += coefficient_[k - c - 1][d] * difference;
     }
     gradients[c].store(g);
   }

@@ -56,9 +56,9 @@ class GreenGauss {
   std::vector<int> node_start_;  // of each node used, into the next two
   std::vector<int> node_cell_;
   std::vector<double> node_weight_;
-  std::vector<int> cell_start_;  // of each cell with gradient, into the next two
+  std::vector<int> cell_start_;  // of each cell with gradient, into the next
   std::vector<int> cell_node_;
-  std::vector<std::array<double, 3>> coefficient_;
+  std::vector<std::array<double, 3>> coefficient_;  // of differences from a cell's first node: one less than nodes
   template <class Number>
   using NodeRows = std::vector<RowOf<Number>>;
   mutable std::tuple<NodeRows<double>, NodeRows<float>> node_rows_;  // each from the first time it is needed

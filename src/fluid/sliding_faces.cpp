@@ -105,11 +105,11 @@ void SlidingFaces::make_faces(size_t i, double angle, InterfaceFaces& faces) con
   append(true), append(false);
 }
 
-const std::vector<InterfaceFaces>& SlidingFaces::faces(const Frames& frames) {
+SlidingFaces::Position& SlidingFaces::position(const Frames& frames) {
   std::vector<double> angles;
   for (const auto& interface : interfaces_) angles.push_back(angle(interface, frames));
-  for (const Position& p : positions_)
-    if (p.angles == angles) return p.faces;
+  for (Position& p : positions_)
+    if (p.angles == angles) return p;
   constexpr size_t kept = 3;
   Position position;
   if (positions_.size() == kept) {
@@ -119,8 +119,16 @@ const std::vector<InterfaceFaces>& SlidingFaces::faces(const Frames& frames) {
   position.angles = angles;
   position.faces.resize(interfaces_.size());
   for (size_t i = 0; i < interfaces_.size(); ++i) make_faces(i, angles[i], position.faces[i]);
+  for (auto& faces : position.single) faces.clear();
   positions_.push_back(std::move(position));
-  return positions_.back().faces;
+  return positions_.back();
+}
+
+const std::vector<InterfaceFacesOf<float>>& SlidingFaces::single(Position& p) {
+  p.single.resize(p.faces.size());
+  for (size_t i = 0; i < p.faces.size(); ++i)
+    if (p.single[i].empty()) p.single[i].assign(p.faces[i].begin(), p.faces[i].end());
+  return p.single;
 }
 
 }  // namespace windhover::fluid

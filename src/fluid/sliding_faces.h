@@ -12,7 +12,9 @@ namespace windhover::fluid {
 
 /// Frames of all zones at one time.
 using Frames = std::vector<mesh::FrameState>;
-using InterfaceFaces = std::vector<mesh::FaceBlock>;
+template <class Number>
+using InterfaceFacesOf = std::vector<mesh::FaceBlockOf<Number>>;
+using InterfaceFaces = InterfaceFacesOf<double>;
 
 /// Cells of other ranks at an interface are kept after the mesh's own cells, as rows [mesh.n_cells, n_cells()): every
 /// rank that has cells at an interface keeps all the others there, since they may meet at some angle.
@@ -34,7 +36,14 @@ class SlidingFaces {
 
   /// Of each interface at these frames the faces that have a cell on this rank, in the parent's frame, normals from the inner
   /// zone (cell[0]) to the parent. Collective; SolverFailure when the pieces do not sum to the faces (audit).
-  const std::vector<InterfaceFaces>& faces(const Frames& frames);
+  /// Number is double or float.
+  template <class Number = double>
+  const std::vector<InterfaceFacesOf<Number>>& faces(const Frames& frames) {
+    if constexpr (std::is_same_v<Number, float>)
+      return single(position(frames));
+    else
+      return position(frames).faces;
+  }
 
   /// Fills the rows of other ranks' cells; between begin and end none of an interface's rows may change. Collective.
   void begin_exchange(void* rows, MPI_Datatype row) const;
@@ -44,7 +53,10 @@ class SlidingFaces {
   struct Position {
     std::vector<double> angles;
     std::vector<InterfaceFaces> faces;
+    std::vector<InterfaceFacesOf<float>> single;  ///< empty until they are asked for
   };
+  Position& position(const Frames& frames);
+  static const std::vector<InterfaceFacesOf<float>>& single(Position& p);
   void number_cells();
   double angle(const mesh::SlidingInterface& interface, const Frames& frames) const;
   void make_faces(size_t i, double angle, InterfaceFaces& faces) const;

@@ -1,6 +1,8 @@
 // Faces in blocks of eight: the unit in which fluxes are computed (one vector register wide).
 #pragma once
+#include <algorithm>
 #include <cstdint>
+#include <type_traits>
 
 namespace windhover::mesh {
 
@@ -17,5 +19,21 @@ struct alignas(64) FaceBlock {
   int count = 0;
   std::int8_t side[kLanes];    ///< which face of cell[0] this is (faces_of its type)
 };
+
+/// What products of floats read of a block, half as long.
+struct alignas(64) SingleFaceBlock {
+  float area[3][kLanes], moment[3][kLanes], arm[kLanes][2][3];
+  int cell[2][kLanes];
+
+  SingleFaceBlock(const FaceBlock& b) {
+    std::copy_n(b.area[0], 3 * kLanes, area[0]);
+    std::copy_n(b.moment[0], 3 * kLanes, moment[0]);
+    std::copy_n(b.arm[0][0], 6 * kLanes, arm[0][0]);
+    std::copy_n(b.cell[0], 2 * kLanes, cell[0]);
+  }
+};
+
+template <class Number>
+using FaceBlockOf = std::conditional_t<std::is_same_v<Number, float>, SingleFaceBlock, FaceBlock>;
 
 }  // namespace windhover::mesh
