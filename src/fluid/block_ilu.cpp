@@ -214,8 +214,7 @@ bool BlockIlu::factor(const double* blocks) {
     Padded pivot;
     regular = invert(row[n_below], pivot) && regular;
     pack(pivot, &pivot_[size_t(i) * kEntries]);
-    for (int j = 0; j < n_above; ++j)
-      pack(product(pivot, row[n_below + 1 + j]), &upper_.block[(above + j) * kEntries]);
+    for (int j = 0; j < n_above; ++j) pack(product(pivot, row[n_below + 1 + j]), &upper_.block[(above + j) * kEntries]);
     for (int j = 0; j < n_below; ++j) place[lower_.column[below + j]] = -1;
     place[i] = -1;
     for (int j = 0; j < n_above; ++j) place[upper_.column[above + j]] = -1;

@@ -6,7 +6,8 @@ namespace windhover::fluid {
 
 struct BoundaryKernels {
   template <class Number>
-  using Sum = void (*)(const FaceInput&, BoundaryKind, const mesh::FaceBlockOf<Number>* blocks, int count, RowOf<Number>* rates);
+  using Sum = void (*)(const FaceInput&, BoundaryKind, const mesh::FaceBlockOf<Number>* blocks, int count,
+                       RowOf<Number>* rates);
   Sum<double> residual[3];          ///< by Reconstruction
   Sum<double> derivative[3];        ///< along the derivative rows
   Sum<float> derivative_single[3];  ///< the same of rows of floats
