@@ -154,4 +154,5 @@ def main():
             section(arguments.work.resolve(), tell)
 
 
-main()
+if __name__ == "__main__":
+    main()
