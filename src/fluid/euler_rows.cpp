@@ -198,9 +198,8 @@ void EulerOperator::begin_interfaces(CellFields<Number>& fields) const {
 
 template <class Number>
 void EulerOperator::end_interfaces(CellFields<Number>& fields) const {
-  const auto& types = std::get<RowTypes<Number>>(types_);
-  sliding_.end_exchange(fields.cells.data(), types.row);
-  if (!fields.gradients.empty()) sliding_.end_exchange(fields.gradients.data(), types.gradient);
+  sliding_.end_exchange(fields.cells.data());
+  if (!fields.gradients.empty()) sliding_.end_exchange(fields.gradients.data());
 }
 
 #define WINDHOVER_FIELDS_OF(Number)                                         \
@@ -217,9 +216,8 @@ void EulerOperator::load_cells(Vec q, const Frames& frames) {
   fill_cells(q, frames);
   begin_halo(state_);
   end_halo(state_);
-  const MpiType& row = std::get<RowTypes<double>>(types_).row;
-  sliding_.begin_exchange(state_.cells.data(), row);
-  sliding_.end_exchange(state_.cells.data(), row);
+  sliding_.begin_exchange(state_.cells.data(), std::get<RowTypes<double>>(types_).row);
+  sliding_.end_exchange(state_.cells.data());
 }
 
 }  // namespace windhover::fluid

@@ -20,13 +20,15 @@ void InterfaceCoupling::set_up_exchange() {
   std::vector<PetscSFNode> known(faces.n_cells(), {rank_of(mesh.comm), -1});
   for (mesh::Index c = 0; c < mesh.n_owned; ++c) known[c].index = place_[c];
   faces.begin_exchange(known.data(), MPIU_2INT);
-  faces.end_exchange(known.data(), MPIU_2INT);
+  faces.end_exchange(known.data());
   std::vector<PetscSFNode> remote(known.begin() + mesh.n_cells, known.end());
   std::vector<PetscInt> leaves(remote.size());
   std::iota(leaves.begin(), leaves.end(), static_cast<PetscInt>(cells_.size()));
-  petsc(PetscSFCreate(mesh.comm, others_.out()));
-  petsc(PetscSFSetGraph(others_, static_cast<PetscInt>(cells_.size()), static_cast<PetscInt>(leaves.size()), leaves.data(),
+  SfHandle forest;
+  petsc(PetscSFCreate(mesh.comm, forest.out()));
+  petsc(PetscSFSetGraph(forest, static_cast<PetscInt>(cells_.size()), static_cast<PetscInt>(leaves.size()), leaves.data(),
                         PETSC_COPY_VALUES, remote.data(), PETSC_COPY_VALUES));
+  others_ = mesh::RemoteRows(mesh.comm, forest);
   x_.resize(kVariables * (cells_.size() + leaves.size()));
 }
 
@@ -60,8 +62,9 @@ std::vector<mesh::Index> InterfaceCoupling::cells_within(int layers) const {
 }
 
 void InterfaceCoupling::subtract_product(double* sum) {
-  petsc(PetscSFBcastBegin(others_, five_, x_.data(), x_.data(), MPI_REPLACE));
-  petsc(PetscSFBcastEnd(others_, five_, x_.data(), x_.data(), MPI_REPLACE));
+  const auto rows = reinterpret_cast<std::array<float, kVariables>*>(x_.data());
+  others_.begin(rows, five_);
+  others_.end(rows);
   for (const InterfaceBlock& b : blocks_) {
     const Column product = times(b.block, x_.data() + size_t(kVariables) * b.column);
     for (int k = 0; k < kVariables; ++k) sum[size_t(kVariables) * b.row + k] -= product[k];

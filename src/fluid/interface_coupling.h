@@ -36,7 +36,7 @@ class InterfaceCoupling {
   MpiType five_{kVariables, MPI_FLOAT};
   std::vector<mesh::Index> cells_;  ///< owned, at an interface
   std::vector<mesh::Index> place_;  ///< of an owned cell among them
-  SfHandle others_;                 ///< from their ranks' cells_ to what follows those here
+  mesh::RemoteRows others_;         ///< from their ranks' cells_ to what follows those here
   // what an application touches is numbered without gaps, or it would wait for memory at every block
   std::vector<InterfaceBlock> blocks_;  ///< rows and columns by place()
   std::vector<float> x_;                ///< five each of cells_ and of other ranks' cells at interfaces

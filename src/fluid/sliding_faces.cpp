@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "base/collective.h"
 
@@ -43,11 +44,25 @@ void SlidingFaces::number_cells() {
         rows[side].push_back(entry->second);
       }
   }
-  std::vector<PetscInt> leaves(remote.size());
-  for (size_t i = 0; i < leaves.size(); ++i) leaves[i] = mesh_.n_cells + static_cast<PetscInt>(i);
-  petsc(PetscSFCreate(mesh_.comm, remote_.out()));
-  petsc(PetscSFSetGraph(remote_, mesh_.n_owned, static_cast<PetscInt>(leaves.size()), leaves.data(), PETSC_COPY_VALUES,
-                        remote.data(), PETSC_COPY_VALUES));
+  // rows of one rank follow each other
+  std::vector<PetscInt> order(remote.size()), leaves(remote.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return remote[a].rank < remote[b].rank; });
+  std::vector<PetscSFNode> roots;
+  for (size_t i = 0; i < order.size(); ++i) {
+    leaves[order[i]] = mesh_.n_cells + static_cast<PetscInt>(i);
+    roots.push_back(remote[order[i]]);
+  }
+  for (auto& sides : face_cell_)
+    for (auto& side : sides)
+      for (int& row : side)
+        if (row >= mesh_.n_cells) row = leaves[row - mesh_.n_cells];
+  std::sort(leaves.begin(), leaves.end());
+  SfHandle forest;
+  petsc(PetscSFCreate(mesh_.comm, forest.out()));
+  petsc(PetscSFSetGraph(forest, mesh_.n_owned, static_cast<PetscInt>(leaves.size()), leaves.data(), PETSC_COPY_VALUES,
+                        roots.data(), PETSC_COPY_VALUES));
+  remote_ = mesh::RemoteRows(mesh_.comm, forest);
 }
 
 std::vector<mesh::Index> SlidingFaces::own_cells() const {
@@ -59,14 +74,6 @@ std::vector<mesh::Index> SlidingFaces::own_cells() const {
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   return cells;
-}
-
-void SlidingFaces::begin_exchange(void* rows, MPI_Datatype row) const {
-  if (!empty()) petsc(PetscSFBcastBegin(remote_, row, rows, rows, MPI_REPLACE));
-}
-
-void SlidingFaces::end_exchange(void* rows, MPI_Datatype row) const {
-  if (!empty()) petsc(PetscSFBcastEnd(remote_, row, rows, rows, MPI_REPLACE));
 }
 
 /// By which angle the inner zone is turned about the interface's axis, relative to the parent.

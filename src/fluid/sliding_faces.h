@@ -6,6 +6,7 @@
 #include "fluid/face_kernel.h"
 #include "mesh/mesh.h"
 #include "mesh/motion.h"
+#include "mesh/remote_rows.h"
 #include "mesh/sliding/sliding_interface.h"
 
 namespace windhover::fluid {
@@ -17,7 +18,8 @@ using InterfaceFacesOf = std::vector<mesh::FaceBlockOf<Number>>;
 using InterfaceFaces = InterfaceFacesOf<double>;
 
 /// Cells of other ranks at an interface are kept after the mesh's own cells, as rows [mesh.n_cells, n_cells()): every
-/// rank that has cells at an interface keeps all the others there, since they may meet at some angle.
+/// rank that has cells at an interface keeps all the others there, since they may meet at some angle, those of one rank
+/// after each other.
 class SlidingFaces {
  public:
   SlidingFaces(const mesh::Mesh& mesh, std::vector<mesh::SlidingInterface> interfaces);
@@ -46,8 +48,14 @@ class SlidingFaces {
   }
 
   /// Fills the rows of other ranks' cells; between begin and end none of an interface's rows may change. Collective.
-  void begin_exchange(void* rows, MPI_Datatype row) const;
-  void end_exchange(void* rows, MPI_Datatype row) const;
+  template <class Row>
+  void begin_exchange(Row* rows, MPI_Datatype row) const {
+    remote_.begin(rows, row);
+  }
+  template <class Row>
+  void end_exchange(Row* rows) const {
+    remote_.end(rows);
+  }
 
  private:
   struct Position {
@@ -67,7 +75,7 @@ class SlidingFaces {
   mesh::Index n_cells_;
   std::vector<std::array<std::vector<int>, 2>>
       face_cell_;  ///< row of each face's cell; −1 on ranks away from the interface
-  SfHandle remote_;
+  mutable mesh::RemoteRows remote_;
   std::deque<Position> positions_;  ///< the latest ones: a step works at its two ends
 };
 

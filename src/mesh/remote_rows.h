@@ -1,0 +1,75 @@
+// Rows of other ranks' cells, kept after a rank's own ones.
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <map>
+#include <vector>
+
+#include "base/petsc.h"
+#include "mesh/mesh.h"
+
+namespace windhover::mesh {
+
+/// What PetscSFBcast does, for rows that are scattered where they come from: a row is copied in whole registers and asked
+/// for ahead, where PETSc copies four bytes at a time.
+class RemoteRows {
+ public:
+  RemoteRows() = default;
+  /// Collective. Leaves of one rank must follow each other, in the order of the forest's list.
+  RemoteRows(MPI_Comm comm, PetscSF forest);
+
+  /// Fills the leaves of `rows`, whose items are of the type `row`; between begin and end no root or leaf may change, and
+  /// only exchanges of rows of different sizes may be under way. Collective.
+  template <class Row>
+  void begin(Row* rows, MPI_Datatype row) {
+    Flight& flight = flights_[sizeof(Row)];
+    flight.packed.resize(sent_.size() * sizeof(Row));
+    constexpr int kTag = static_cast<int>(sizeof(Row));
+    for (const Peer& p : from_) {
+      flight.requests.emplace_back();
+      MPI_Irecv(rows + p.first, p.count, row, p.rank, kTag, comm_, &flight.requests.back());
+    }
+    for (const Peer& p : to_) {
+      std::byte* packed = flight.packed.data() + size_t(p.first) * sizeof(Row);
+      pack(rows, p, packed);
+      flight.requests.emplace_back();
+      MPI_Isend(packed, p.count, row, p.rank, kTag, comm_, &flight.requests.back());
+    }
+  }
+
+  template <class Row>
+  void end(Row*) {
+    std::vector<MPI_Request>& requests = flights_[sizeof(Row)].requests;
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+    requests.clear();
+  }
+
+ private:
+  struct Peer {
+    int rank = 0;
+    Index first = 0, count = 0;  ///< of sent_, or of the rows themselves
+  };
+  struct Flight {
+    std::vector<std::byte> packed;
+    std::vector<MPI_Request> requests;
+  };
+
+  template <class Row>
+  void pack(const Row* rows, const Peer& to, std::byte* packed) const {
+    constexpr Index kAhead = 16;
+    const Index* sent = sent_.data() + to.first;
+    for (Index k = 0; k < to.count; ++k) {
+      const auto* next = reinterpret_cast<const char*>(rows + sent[std::min(k + kAhead, to.count - 1)]);
+      for (size_t at = 0; at < sizeof(Row); at += 64) __builtin_prefetch(next + at);
+      std::memcpy(packed + size_t(k) * sizeof(Row), rows + sent[k], sizeof(Row));
+    }
+  }
+
+  MPI_Comm comm_ = MPI_COMM_NULL;
+  std::vector<Peer> to_, from_;
+  std::vector<Index> sent_;  ///< own rows, by the rank that wants them
+  std::map<size_t, Flight> flights_;
+};
+
+}  // namespace windhover::mesh
