@@ -1,19 +1,65 @@
 #include "mesh/number_cells.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <span>
+#include <utility>
 
 namespace windhover::mesh {
 namespace {
 
-/// Reverse Cuthill-McKee over the owned cells; zones have no common faces, so a stable sort by zone keeps it.
+/// Cells of one zone are ordered in pieces of at most so many: decisions.md.
+constexpr std::ptrdiff_t kPiece = 100000;
+
+/// Divides cells at the median of the coordinate along which they extend farthest, until pieces are small enough, and
+/// numbers the pieces.
+void bisect(std::span<Index> cells, const std::vector<Vec3>& centre, std::vector<int>& piece, int& n_pieces) {
+  if (std::ssize(cells) <= kPiece) {
+    for (const Index c : cells) piece[c] = n_pieces;
+    ++n_pieces;
+    return;
+  }
+  Eigen::AlignedBox3d box;
+  for (const Index c : cells) box.extend(centre[c]);
+  Eigen::Index along = 0;
+  box.sizes().maxCoeff(&along);
+  const size_t half = cells.size() / 2;
+  std::nth_element(cells.begin(), cells.begin() + half, cells.end(), [&](Index a, Index b) {
+    return std::pair(centre[a][along], a) < std::pair(centre[b][along], b);
+  });
+  bisect(cells.first(half), centre, piece, n_pieces);
+  bisect(cells.subspan(half), centre, piece, n_pieces);
+}
+
+/// The piece of each owned cell, zone by zone.
+std::vector<int> pieces(const MeshPart& part) {
+  std::vector<Vec3> centre(part.n_owned);  // of its corners
+  std::map<int, std::vector<Index>> zones;
+  for (Index c = 0; c < part.n_owned; ++c) {
+    const int n = static_cast<int>(part.cells[c].type);
+    Vec3 sum = Vec3::Zero();
+    for (int k = 0; k < n; ++k) sum += part.cells[c].corners[k].position;
+    centre[c] = sum / n;
+    zones[part.cells[c].zone].push_back(c);
+  }
+  std::vector<int> piece(part.n_owned);
+  int n_pieces = 0;
+  for (auto& [zone, cells] : zones) bisect(cells, centre, piece, n_pieces);
+  return piece;
+}
+
+/// Reverse Cuthill-McKee over the owned cells of each piece; pieces come one after the other, and so zones.
 std::vector<Index> order_owned(const MeshPart& part) {
+  const std::vector<int> piece = pieces(part);
   std::vector<PetscInt> start{0}, columns;
   for (Index c = 0; c < part.n_owned; ++c) {
     const auto first = static_cast<std::ptrdiff_t>(columns.size());
     columns.push_back(c);
     for (const FileSide& side : part.cells[c].sides)
-      if (side.neighbour >= 0 && side.neighbour < part.n_owned) columns.push_back(side.neighbour);
+      if (side.neighbour >= 0 && side.neighbour < part.n_owned && piece[side.neighbour] == piece[c])
+        columns.push_back(side.neighbour);
     std::sort(columns.begin() + first, columns.end());
     start.push_back(static_cast<PetscInt>(columns.size()));
   }
@@ -27,7 +73,7 @@ std::vector<Index> order_owned(const MeshPart& part) {
   petsc(ISGetIndices(rows, &order));
   std::vector<Index> cells(order, order + part.n_owned);
   petsc(ISRestoreIndices(rows, &order));
-  std::stable_sort(cells.begin(), cells.end(), [&](Index a, Index b) { return part.cells[a].zone < part.cells[b].zone; });
+  std::stable_sort(cells.begin(), cells.end(), [&](Index a, Index b) { return piece[a] < piece[b]; });
   return cells;
 }
 
