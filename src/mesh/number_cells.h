@@ -14,7 +14,8 @@ struct Numbering {
   SfHandle halo;  ///< as in Mesh
 };
 
-/// Collective. Owned cells by zone, large zones in pieces, within a piece by reverse Cuthill-McKee; halo cells by their global numbers.
+/// Collective. Owned cells by zone, large zones in pieces, within a piece by reverse Cuthill-McKee; halo cells by their
+/// global numbers.
 Numbering number_cells(const MeshPart& part, MPI_Comm comm);
 
 }  // namespace windhover::mesh
