@@ -79,9 +79,8 @@ struct CellFields {
 
 /// What travels between ranks.
 template <class Number>
-struct RowTypes {
-  static MPI_Datatype number() { return std::is_same_v<Number, float> ? MPI_FLOAT : MPI_DOUBLE; }
-  MpiType row{8, number()}, gradient{16, number()};
+struct RowType : MpiType {
+  RowType() : MpiType(8, std::is_same_v<Number, float> ? MPI_FLOAT : MPI_DOUBLE) {}
 };
 
 /// Which vector, and which of the contents it has had; the same on all ranks.
@@ -224,7 +223,7 @@ class EulerOperator {
   const mesh::Mesh& mesh_;
   FlowModel model_;
   SlidingFaces sliding_;
-  std::tuple<RowTypes<double>, RowTypes<float>> types_;
+  std::tuple<RowType<double>, RowType<float>> types_;
   std::vector<std::optional<BoundaryKind>> patch_kind_;  ///< none: an interface
   std::vector<mesh::Range> zone_cells_;                  ///< owned cells of each zone
   std::optional<GreenGauss> green_gauss_;

@@ -169,13 +169,13 @@ void EulerOperator::round_state() {
 
 template <class Number>
 void EulerOperator::begin_halo(CellFields<Number>& fields) const {
-  const MpiType& row = std::get<RowTypes<Number>>(types_).row;
+  const MpiType& row = std::get<RowType<Number>>(types_);
   petsc(PetscSFBcastBegin(mesh_.halo, row, fields.cells.data(), fields.cells.data(), MPI_REPLACE));
 }
 
 template <class Number>
 void EulerOperator::end_halo(CellFields<Number>& fields) const {
-  const MpiType& row = std::get<RowTypes<Number>>(types_).row;
+  const MpiType& row = std::get<RowType<Number>>(types_);
   petsc(PetscSFBcastEnd(mesh_.halo, row, fields.cells.data(), fields.cells.data(), MPI_REPLACE));
 }
 
@@ -191,9 +191,8 @@ void EulerOperator::complete(CellFields<Number>& fields) const {
 
 template <class Number>
 void EulerOperator::begin_interfaces(CellFields<Number>& fields) const {
-  const auto& types = std::get<RowTypes<Number>>(types_);
-  sliding_.begin_exchange(fields.cells.data(), types.row);
-  if (!fields.gradients.empty()) sliding_.begin_exchange(fields.gradients.data(), types.gradient);
+  sliding_.begin_exchange(fields.cells.data());
+  if (!fields.gradients.empty()) sliding_.begin_exchange(fields.gradients.data());
 }
 
 template <class Number>
@@ -216,7 +215,7 @@ void EulerOperator::load_cells(Vec q, const Frames& frames) {
   fill_cells(q, frames);
   begin_halo(state_);
   end_halo(state_);
-  sliding_.begin_exchange(state_.cells.data(), std::get<RowTypes<double>>(types_).row);
+  sliding_.begin_exchange(state_.cells.data());
   sliding_.end_exchange(state_.cells.data());
 }
 

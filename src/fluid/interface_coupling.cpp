@@ -19,7 +19,7 @@ void InterfaceCoupling::set_up_exchange() {
   // who has each cell, and where among its own
   std::vector<PetscSFNode> known(faces.n_cells(), {rank_of(mesh.comm), -1});
   for (mesh::Index c = 0; c < mesh.n_owned; ++c) known[c].index = place_[c];
-  faces.begin_exchange(known.data(), MPIU_2INT);
+  faces.begin_exchange(known.data());
   faces.end_exchange(known.data());
   std::vector<PetscSFNode> remote(known.begin() + mesh.n_cells, known.end());
   std::vector<PetscInt> leaves(remote.size());
@@ -63,7 +63,7 @@ std::vector<mesh::Index> InterfaceCoupling::cells_within(int layers) const {
 
 void InterfaceCoupling::subtract_product(double* sum) {
   const auto rows = reinterpret_cast<std::array<float, kVariables>*>(x_.data());
-  others_.begin(rows, five_);
+  others_.begin(rows);
   others_.end(rows);
   for (const InterfaceBlock& b : blocks_) {
     const Column product = times(b.block, x_.data() + size_t(kVariables) * b.column);

@@ -3,7 +3,6 @@
 #pragma once
 #include <vector>
 
-#include "base/mpi_type.h"
 #include "fluid/euler.h"
 
 namespace windhover::fluid {
@@ -33,7 +32,6 @@ class InterfaceCoupling {
   void subtract_product(double* sum);
 
   EulerOperator& euler_;
-  MpiType five_{kVariables, MPI_FLOAT};
   std::vector<mesh::Index> cells_;  ///< owned, at an interface
   std::vector<mesh::Index> place_;  ///< of an owned cell among them
   mesh::RemoteRows others_;         ///< from their ranks' cells_ to what follows those here

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "base/collective.h"
 
@@ -23,41 +22,31 @@ bool SlidingFaces::covers(int patch) const {
 }
 
 void SlidingFaces::number_cells() {
+  const auto is_here = [this](const mesh::SlidingInterface& interface) {
+    for (int side = 0; side < 2; ++side)
+      for (const auto& face : interface.faces(side))
+        if (face.rank == rank_) return true;
+    return false;
+  };
   std::map<std::pair<int, mesh::Index>, int> row_of;  // remote cell → its row here
-  std::vector<PetscSFNode> remote;
-  for (const auto& interface : interfaces_) {
-    bool here = false;
-    for (int side = 0; side < 2; ++side)
-      for (const auto& face : interface.faces(side)) here |= face.rank == rank_;
-    auto& rows = face_cell_.emplace_back();
-    for (int side = 0; side < 2; ++side)
-      for (const auto& face : interface.faces(side)) {
-        if (face.rank == rank_ || !here) {
-          rows[side].push_back(here ? face.cell : -1);
-          continue;
-        }
-        const auto [entry, fresh] = row_of.try_emplace({face.rank, face.cell}, n_cells_);
-        if (fresh) {
-          remote.push_back({face.rank, face.cell});
-          ++n_cells_;
-        }
-        rows[side].push_back(entry->second);
-      }
-  }
-  // rows of one rank follow each other
-  std::vector<PetscInt> order(remote.size()), leaves(remote.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return remote[a].rank < remote[b].rank; });
+  for (const auto& interface : interfaces_)
+    for (int side = 0; side < 2 && is_here(interface); ++side)
+      for (const auto& face : interface.faces(side))
+        if (face.rank != rank_) row_of[{face.rank, face.cell}] = 0;
   std::vector<PetscSFNode> roots;
-  for (size_t i = 0; i < order.size(); ++i) {
-    leaves[order[i]] = mesh_.n_cells + static_cast<PetscInt>(i);
-    roots.push_back(remote[order[i]]);
+  std::vector<PetscInt> leaves;
+  for (auto& [cell, row] : row_of) {
+    row = n_cells_++;
+    roots.push_back({cell.first, cell.second});
+    leaves.push_back(row);
   }
-  for (auto& sides : face_cell_)
-    for (auto& side : sides)
-      for (int& row : side)
-        if (row >= mesh_.n_cells) row = leaves[row - mesh_.n_cells];
-  std::sort(leaves.begin(), leaves.end());
+  for (const auto& interface : interfaces_) {
+    auto& rows = face_cell_.emplace_back();
+    const bool here = is_here(interface);
+    for (int side = 0; side < 2; ++side)
+      for (const auto& face : interface.faces(side))
+        rows[side].push_back(!here ? -1 : face.rank == rank_ ? face.cell : row_of.at({face.rank, face.cell}));
+  }
   SfHandle forest;
   petsc(PetscSFCreate(mesh_.comm, forest.out()));
   petsc(PetscSFSetGraph(forest, mesh_.n_owned, static_cast<PetscInt>(leaves.size()), leaves.data(), PETSC_COPY_VALUES,

@@ -18,8 +18,8 @@ using InterfaceFacesOf = std::vector<mesh::FaceBlockOf<Number>>;
 using InterfaceFaces = InterfaceFacesOf<double>;
 
 /// Cells of other ranks at an interface are kept after the mesh's own cells, as rows [mesh.n_cells, n_cells()): every
-/// rank that has cells at an interface keeps all the others there, since they may meet at some angle, those of one rank
-/// after each other.
+/// rank that has cells at an interface keeps all the others there, since they may meet at some angle, in the
+/// order of their ranks and numbers.
 class SlidingFaces {
  public:
   SlidingFaces(const mesh::Mesh& mesh, std::vector<mesh::SlidingInterface> interfaces);
@@ -49,8 +49,8 @@ class SlidingFaces {
 
   /// Fills the rows of other ranks' cells; between begin and end none of an interface's rows may change. Collective.
   template <class Row>
-  void begin_exchange(Row* rows, MPI_Datatype row) const {
-    remote_.begin(rows, row);
+  void begin_exchange(Row* rows) const {
+    remote_.begin(rows);
   }
   template <class Row>
   void end_exchange(Row* rows) const {

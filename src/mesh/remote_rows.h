@@ -19,22 +19,22 @@ class RemoteRows {
   /// Collective. Leaves of one rank must follow each other, in the order of the forest's list.
   RemoteRows(MPI_Comm comm, PetscSF forest);
 
-  /// Fills the leaves of `rows`, whose items are of the type `row`; between begin and end no root or leaf may change, and
-  /// only exchanges of rows of different sizes may be under way. Collective.
+  /// Fills the leaves of `rows`, plain records; between begin and end no root or leaf may change, and only exchanges of
+  /// rows of different sizes may be under way. Collective.
   template <class Row>
-  void begin(Row* rows, MPI_Datatype row) {
+  void begin(Row* rows) {
     Flight& flight = flights_[sizeof(Row)];
     flight.packed.resize(sent_.size() * sizeof(Row));
     constexpr int kTag = static_cast<int>(sizeof(Row));
     for (const Peer& p : from_) {
       flight.requests.emplace_back();
-      MPI_Irecv(rows + p.first, p.count, row, p.rank, kTag, comm_, &flight.requests.back());
+      MPI_Irecv(rows + p.first, bytes<Row>(p.count), MPI_BYTE, p.rank, kTag, comm_, &flight.requests.back());
     }
     for (const Peer& p : to_) {
       std::byte* packed = flight.packed.data() + size_t(p.first) * sizeof(Row);
       pack(rows, p, packed);
       flight.requests.emplace_back();
-      MPI_Isend(packed, p.count, row, p.rank, kTag, comm_, &flight.requests.back());
+      MPI_Isend(packed, bytes<Row>(p.count), MPI_BYTE, p.rank, kTag, comm_, &flight.requests.back());
     }
   }
 
@@ -54,6 +54,11 @@ class RemoteRows {
     std::vector<std::byte> packed;
     std::vector<MPI_Request> requests;
   };
+
+  template <class Row>
+  static int bytes(Index count) {
+    return static_cast<int>(count * sizeof(Row));
+  }
 
   template <class Row>
   void pack(const Row* rows, const Peer& to, std::byte* packed) const {
