@@ -25,6 +25,6 @@ TEST_CASE("the tree of boxes finds what a search through all finds") {
     tree.find(query, found);
     CHECK(found == expected);
   }
-  BoxTree({}).find(boxes[0], found);
+  BoxTree(std::span<const Box>()).find(boxes[0], found);
   CHECK(found.empty());
 }

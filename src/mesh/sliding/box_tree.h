@@ -1,30 +1,31 @@
 // Which of many boxes meet a given one, in a time that grows with their logarithm.
 #pragma once
 #include <Eigen/Geometry>
+#include <span>
 #include <vector>
 
 namespace windhover::mesh {
 
 using Box = Eigen::AlignedBox3d;
 
-/// A binary tree over boxes, each half of the boxes below one child.
+/// A tree of nodes with four children each, whose boxes are compared at once.
 class BoxTree {
  public:
-  explicit BoxTree(std::vector<Box> boxes);
+  explicit BoxTree(std::span<const Box> boxes);
 
   /// Replaces `found` by the numbers of all boxes that meet the given one, ascending.
   void find(const Box& box, std::vector<int>& found) const;
 
  private:
+  static constexpr int kChildren = 4;
+  typedef double Four __attribute__((vector_size(kChildren * sizeof(double))));
   struct Node {
-    Box box;
-    int begin = 0, end = 0;  ///< into order_
-    int right = 0;           ///< 0: a leaf; the left child follows its parent
+    Four low[3], high[3];  ///< of the children's boxes; low above high where there is no child
+    int child[kChildren];   ///< number of a box, or ~node
   };
-  void build(int begin, int end);
+  /// Number of the new node above the boxes with these numbers.
+  int build(std::span<const Box> boxes, std::span<int> numbers);
 
-  std::vector<Box> boxes_;  ///< once built: by order_
-  std::vector<int> order_;
   std::vector<Node> nodes_;
 };
 

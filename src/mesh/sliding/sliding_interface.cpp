@@ -29,7 +29,7 @@ std::array<Vec3, 4> local_corners(const RevolutionSurface& surface, const Interf
 BoxTree tree_of(const RevolutionSurface& surface, const InterfaceSide& side) {
   std::vector<Box> boxes;
   for (const InterfaceFace& face : side.faces) boxes.push_back(box_of(surface, local_corners(surface, face), face.n));
-  return BoxTree(std::move(boxes));
+  return BoxTree(boxes);
 }
 
 Vec3 rotated(const Vec3& p, double cosine, double sine) {
@@ -37,11 +37,10 @@ Vec3 rotated(const Vec3& p, double cosine, double sine) {
 }
 
 /// The outline of an inner face when its zone has turned.
-Polygon turned(const ChartFace& face, const Chart& chart, double angle) {
+Polygon turned(const ChartFace& face, const Chart& chart, double angle, double cosine, double sine) {
   Polygon polygon;
-  const double cosine = std::cos(angle), sine = chart.mirror() * std::sin(angle);
   for (const Vec3& p : std::span<const Vec3>(face.outline))
-    polygon.add(face.part == Part::wall ? Vec3(p.x() + angle, p.y(), p.z()) : rotated(p, cosine, sine));
+    polygon.add(face.part == Part::wall ? Vec3(p.x() + angle, p.y(), p.z()) : rotated(p, cosine, chart.mirror() * sine));
   return polygon;
 }
 
@@ -101,7 +100,7 @@ void SlidingInterface::cut(double angle, int begin, int end, std::vector<Piece>&
     const InterfaceFace& face = inner.faces[i];
     const ChartFace& placed = inner.charts[i];
     const Chart chart{&surface_, placed.part};
-    const Polygon polygon = turned(placed, chart, angle);
+    const Polygon polygon = turned(placed, chart, angle, cosine, sine);
     const Box box = box_in_chart(polygon);
     std::array<Vec3, 4> corners = local_corners(surface_, face);
     for (int k = 0; k < face.n; ++k) corners[k] = rotated(corners[k], cosine, sine);
