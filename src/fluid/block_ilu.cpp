@@ -151,7 +151,7 @@ class Chain {
 void BlockIlu::Triangle::allocate() { block = allocate_blocks(column.size()); }
 
 BlockIlu::BlockIlu(int n, const int* start, const int* column, int levels)
-    : n_(n), given_start_(start, start + n + 1), given_column_(column, column + start[n]) {
+    : n_(n), count_(n), given_start_(start, start + n + 1), given_column_(column, column + start[n]) {
   find_pattern(start, column, levels);
   lower_.allocate();
   upper_.allocate();
@@ -186,7 +186,7 @@ void BlockIlu::find_pattern(const int* start, const int* column, int levels) {
   }
 }
 
-bool BlockIlu::factor(const double* blocks) {
+bool BlockIlu::factor(std::span<const double* const> blocks) {
   std::vector<Padded> row;         // of the pattern: lower part, diagonal, upper part
   std::vector<int> place(n_, -1);  // of a column in it
   bool regular = true;
@@ -200,7 +200,7 @@ bool BlockIlu::factor(const double* blocks) {
     for (int j = 0; j < n_above; ++j) place[upper_.column[above + j]] = n_below + 1 + j;
     for (int at = given_start_[i]; at < given_start_[i + 1]; ++at)
       for (int c = 0; c < kSize; ++c)
-        row[place[given_column_[at]]].column[c] = rounded(blocks + size_t(at) * kEntries + kSize * c);
+        row[place[given_column_[at]]].column[c] = rounded(blocks[at] + kSize * c);
     for (int j = 0; j < n_below; ++j) {
       const int k = lower_.column[below + j];
       pack(product(row[j], unpack(&pivot_[size_t(k) * kEntries])), &lower_.block[(below + j) * kEntries]);
@@ -243,20 +243,30 @@ void BlockIlu::solve(const double* b, double* x, const ChangedRows& changed) {
     store(sum, &work_[size_t(i) * kPadded]);
   };
   int row = 0;
+  const auto as_given = [&](int end) {
+    for (; row < end; ++row) substitute(row, b + size_t(row - first_) * kSize);
+  };
   for (size_t k = 0; k < changed.rows.size(); ++k) {
-    for (; row < changed.rows[k]; ++row) substitute(row, b + size_t(row) * kSize);
+    as_given(changed.rows[k]);
     substitute(row++, changed.values + k * kSize);
   }
-  for (; row < n_; ++row) substitute(row, b + size_t(row) * kSize);
+  as_given(n_);
   // rows follow from the rows just done: what needs those comes last in each sum, and pivots wait for none
-  for (int i = n_ - 1; i >= 0; --i) {
+  const auto substitute_back = [&](int i) {
     float* y = &work_[size_t(i) * kPadded];
     Column sum = times(&pivot_[size_t(i) * kEntries], y);
     for (size_t at = upper_.start[i + 1]; at-- > upper_.start[i];)
       sum -= times(ahead<-kAhead>(&upper_.block[at * kEntries]), &work_[size_t(upper_.column[at]) * kPadded]);
     store(sum, y);
-    for (int k = 0; k < kSize; ++k) x[size_t(i) * kSize + k] = y[k];
+    return y;
+  };
+  int i = n_;
+  while (i > first_ + count_) substitute_back(--i);
+  while (i > first_) {
+    const float* y = substitute_back(--i);
+    std::copy_n(y, kSize, x + size_t(i - first_) * kSize);
   }
+  while (i > 0) substitute_back(--i);
 }
 
 void BlockIlu::solve_row(int row, const double* b, float* x) const {

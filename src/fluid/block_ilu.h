@@ -8,7 +8,7 @@
 
 namespace windhover::fluid {
 
-/// Rows of a right side that are not as given, ascending, and the five values of each.
+/// Rows of a right side that are not as given, or not given, ascending, and the five values of each.
 struct ChangedRows {
   std::span<const int> rows;
   const double* values = nullptr;
@@ -20,8 +20,10 @@ class BlockIlu {
   /// among them. `levels` of fill: Saad, Iterative Methods for Sparse Linear Systems, 2nd ed., section 10.3.3.
   BlockIlu(int n, const int* start, const int* column, int levels);
 
-  /// Blocks in the order of the pattern, each by columns. False: some pivot cannot be inverted.
-  bool factor(const double* blocks);
+  /// Right sides and solutions have the `count` rows from `first` on alone; the others' right sides are always changed ones.
+  void give(int first, int count) { first_ = first, count_ = count; }
+  /// Where the blocks are, each by columns, in the order of the pattern. False: some pivot cannot be inverted.
+  bool factor(std::span<const double* const> blocks);
   /// x = U⁻¹ L⁻¹ b, five values a row, with `changed` in place of some.
   void solve(const double* b, double* x, const ChangedRows& changed = {});
   /// x = U⁻¹ b of one row alone.
@@ -37,7 +39,7 @@ class BlockIlu {
   };
   void find_pattern(const int* start, const int* column, int levels);
 
-  int n_;
+  int n_, first_ = 0, count_;
   std::vector<int> given_start_, given_column_;
   Triangle lower_, upper_;                  ///< L and D⁻¹U, without their unit diagonals
   std::unique_ptr<std::uint16_t[]> pivot_;  ///< D⁻¹, inverses of U's diagonal blocks

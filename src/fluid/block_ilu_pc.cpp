@@ -1,62 +1,109 @@
 #include "fluid/block_ilu_pc.h"
 
+#include <algorithm>
+#include <array>
+#include <numeric>
 #include <optional>
 
 #include "fluid/block_ilu.h"
-#include "fluid/block_matrix.h"
 #include "fluid/interface_band.h"
+#include "fluid/overlapping_rows.h"
+#include "mesh/remote_rows.h"
 
 namespace windhover::fluid {
 namespace {
 
-/// Incomplete factors of this rank's own part of the matrix.
-struct OwnIlu {
-  int levels;
-  InterfaceCoupling* coupling;
-  std::optional<BlockIlu> factors;
-  std::optional<InterfaceBand> band;
+/// Incomplete factors of this rank's own rows and one layer of other ranks' rows around them.
+class OverlappingIlu {
+ public:
+  OverlappingIlu(Mat matrix, int levels, InterfaceCoupling* coupling);
+
+  bool factor();
+  /// x = what the factors make of b, own rows of both. Collective.
+  void solve(const double* b, double* x);
+
+ private:
+  typedef std::array<double, kVariables> Five;
+
+  Mat inside_;  ///< own rows and columns of the matrix
+  OverlappingRows rows_;
+  BlockIlu factors_;
+  std::optional<InterfaceBand> band_;
+  std::vector<int> changed_rows_;  ///< other ranks' rows and own ones at interfaces
+  std::vector<double> changed_;    ///< their right sides
+  mesh::RemoteRows others_;        ///< from other ranks' right sides to changed_
 };
 
-OwnIlu& own_ilu(PC pc) {
-  void* context = nullptr;
-  petsc(PCShellGetContext(pc, &context));
-  return *static_cast<OwnIlu*>(context);
+OverlappingIlu::OverlappingIlu(Mat matrix, int levels, InterfaceCoupling* coupling)
+    : inside_(block_parts(matrix).inside),
+      rows_(matrix),
+      factors_(rows_.rows(), rows_.start(), rows_.column(), levels) {
+  factors_.give(rows_.before(), rows_.own());
+  if (coupling) band_.emplace(*coupling, BlockPattern(inside_));
+  changed_rows_.resize(rows_.before());
+  std::iota(changed_rows_.begin(), changed_rows_.end(), 0);
+  if (coupling)
+    for (const mesh::Index cell : coupling->cells()) changed_rows_.push_back(rows_.before() + cell);
+  for (int row = rows_.before() + rows_.own(); row < rows_.rows(); ++row) changed_rows_.push_back(row);
+  changed_.resize(kVariables * changed_rows_.size());
+  others_ = mesh::RemoteRows(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), rows_.forest(changed_rows_.size()));
 }
 
-PetscErrorCode factor_own(PC pc) {
+bool OverlappingIlu::factor() {
+  const bool regular = factors_.factor(rows_.blocks());
+  if (!band_) return regular;
+  PetscScalar* blocks = nullptr;
+  petsc(MatSeqBAIJGetArray(inside_, &blocks));
+  const bool band_regular = band_->factor(blocks);
+  petsc(MatSeqBAIJRestoreArray(inside_, &blocks));
+  return regular && band_regular;
+}
+
+void OverlappingIlu::solve(const double* b, double* x) {
+  const auto others = reinterpret_cast<Five*>(changed_.data());
+  others_.begin(reinterpret_cast<const Five*>(b), others);
+  if (band_) band_->right_side(b, changed_.data() + kVariables * rows_.before());
+  others_.end(others);
+  factors_.solve(b, x, {changed_rows_, changed_.data()});
+}
+
+/// The pattern is known when the matrix has its first values.
+struct LateIlu {
+  int levels;
+  InterfaceCoupling* coupling;
+  std::optional<OverlappingIlu> ilu;
+};
+
+LateIlu& late_ilu(PC pc) {
+  void* context = nullptr;
+  petsc(PCShellGetContext(pc, &context));
+  return *static_cast<LateIlu*>(context);
+}
+
+PetscErrorCode factor_ilu(PC pc) {
   return CallbackGuard().run([pc] {
-    OwnIlu& ilu = own_ilu(pc);
+    LateIlu& late = late_ilu(pc);
     Mat matrix = nullptr;
     petsc(PCGetOperators(pc, nullptr, &matrix));
-    const Mat inside = block_parts(matrix).inside;
-    if (!ilu.factors) {
-      const BlockPattern pattern(inside);
-      ilu.factors.emplace(pattern.rows(), pattern.start(), pattern.column(), ilu.levels);
-      if (ilu.coupling) ilu.band.emplace(*ilu.coupling, pattern);
-    }
-    PetscScalar* blocks = nullptr;
-    petsc(MatSeqBAIJGetArray(inside, &blocks));
-    const bool regular = ilu.factors->factor(blocks) && (!ilu.band || ilu.band->factor(blocks));
-    petsc(MatSeqBAIJRestoreArray(inside, &blocks));
-    petsc(PCSetFailedReason(pc, regular ? PC_NOERROR : PC_FACTOR_NUMERIC_ZEROPIVOT));
+    if (!late.ilu) late.ilu.emplace(matrix, late.levels, late.coupling);
+    petsc(PCSetFailedReason(pc, late.ilu->factor() ? PC_NOERROR : PC_FACTOR_NUMERIC_ZEROPIVOT));
   });
 }
 
-PetscErrorCode apply_own(PC pc, Vec b, Vec x) {
+PetscErrorCode apply_ilu(PC pc, Vec b, Vec x) {
   return CallbackGuard().run([=] {
-    OwnIlu& ilu = own_ilu(pc);
     const double* from = nullptr;
     double* to = nullptr;
     petsc(VecGetArrayRead(b, &from));
     petsc(VecGetArrayWrite(x, &to));
-    ilu.factors->solve(from, to, ilu.band ? ilu.band->right_side(from) : ChangedRows{});
+    late_ilu(pc).ilu->solve(from, to);
     petsc(VecRestoreArrayWrite(x, &to));
     petsc(VecRestoreArrayRead(b, &from));
   });
 }
 
-PetscErrorCode destroy_own(PC pc) {
-  return CallbackGuard().run([pc] { delete &own_ilu(pc); });
+PetscErrorCode destroy_ilu(PC pc) {
+  return CallbackGuard().run([pc] { delete &late_ilu(pc); });
 }
 
 }  // namespace
@@ -64,10 +111,10 @@ PetscErrorCode destroy_own(PC pc) {
 void set_up_block_ilu(PC pc, int levels, InterfaceCoupling* coupling) {
   petsc(PCSetType(pc, PCSHELL));
   petsc(PCShellSetName(pc, "block ILU in bfloat16"));
-  petsc(PCShellSetContext(pc, new OwnIlu{levels, coupling, {}, {}}));
-  petsc(PCShellSetSetUp(pc, factor_own));
-  petsc(PCShellSetApply(pc, apply_own));
-  petsc(PCShellSetDestroy(pc, destroy_own));
+  petsc(PCShellSetContext(pc, new LateIlu{levels, coupling, {}}));
+  petsc(PCShellSetSetUp(pc, factor_ilu));
+  petsc(PCShellSetApply(pc, apply_ilu));
+  petsc(PCShellSetDestroy(pc, destroy_ilu));
 }
 
 void set_up_everywhere_lu(PC pc) {

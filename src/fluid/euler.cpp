@@ -46,6 +46,7 @@ EulerOperator::EulerOperator(const mesh::Mesh& mesh, FlowModel model, std::vecto
     : mesh_(mesh),
       model_(std::move(model)),
       sliding_(mesh_, std::move(interfaces)),
+      halo_(mesh_.comm, mesh_.halo),
       patch_kind_(resolve_patches(mesh_, model_, sliding_)) {
   // with interfaces, the rows of other ranks' cells come after all of the mesh's
   const mesh::Index n_sides = sliding_.empty() ? mesh_.n_gradient : sliding_.n_cells();

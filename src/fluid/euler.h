@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "base/memory.h"
-#include "base/mpi_type.h"
 #include "fluid/block_jacobian.h"
 #include "fluid/boundary_kernels.h"
 #include "fluid/gradient.h"
@@ -75,12 +74,6 @@ struct CellFields {
   CellRows<Number> rows(const CellFields& derivative) const {
     return {cells.data(), gradients.data(), derivative.cells.data(), derivative.gradients.data()};
   }
-};
-
-/// What travels between ranks.
-template <class Number>
-struct RowType : MpiType {
-  RowType() : MpiType(8, std::is_same_v<Number, float> ? MPI_FLOAT : MPI_DOUBLE) {}
 };
 
 /// Which vector, and which of the contents it has had; the same on all ranks.
@@ -157,11 +150,7 @@ class EulerOperator {
   void hold(Vec q, const Frames& frames);
   void load_cells(Vec q, const Frames& frames);
   template <class Number>
-  void begin_halo(CellFields<Number>& fields) const;
-  template <class Number>
-  void end_halo(CellFields<Number>& fields) const;
-  template <class Number>
-  void complete(CellFields<Number>& fields) const;
+  void complete(CellFields<Number>& fields);
   template <class Number>
   void begin_interfaces(CellFields<Number>& fields) const;
   template <class Number>
@@ -223,7 +212,7 @@ class EulerOperator {
   const mesh::Mesh& mesh_;
   FlowModel model_;
   SlidingFaces sliding_;
-  std::tuple<RowType<double>, RowType<float>> types_;
+  mesh::RemoteRows halo_;
   std::vector<std::optional<BoundaryKind>> patch_kind_;  ///< none: an interface
   std::vector<mesh::Range> zone_cells_;                  ///< owned cells of each zone
   std::optional<GreenGauss> green_gauss_;

@@ -167,24 +167,12 @@ void EulerOperator::round_state() {
   held_.single = true;
 }
 
-template <class Number>
-void EulerOperator::begin_halo(CellFields<Number>& fields) const {
-  const MpiType& row = std::get<RowType<Number>>(types_);
-  petsc(PetscSFBcastBegin(mesh_.halo, row, fields.cells.data(), fields.cells.data(), MPI_REPLACE));
-}
-
-template <class Number>
-void EulerOperator::end_halo(CellFields<Number>& fields) const {
-  const MpiType& row = std::get<RowType<Number>>(types_);
-  petsc(PetscSFBcastEnd(mesh_.halo, row, fields.cells.data(), fields.cells.data(), MPI_REPLACE));
-}
-
 /// Rows of neighbours' cells, and gradients, from own rows.
 template <class Number>
-void EulerOperator::complete(CellFields<Number>& fields) const {
-  begin_halo(fields);
+void EulerOperator::complete(CellFields<Number>& fields) {
+  halo_.begin(fields.cells.data());
   if (green_gauss_) green_gauss_->begin(fields.cells.data());
-  end_halo(fields);
+  halo_.end(fields.cells.data());
   if (green_gauss_) green_gauss_->end(fields.cells.data(), fields.gradients.data());
   if (least_squares_) least_squares_->apply(fields.cells.data(), fields.gradients.data());
 }
@@ -202,7 +190,7 @@ void EulerOperator::end_interfaces(CellFields<Number>& fields) const {
 }
 
 #define WINDHOVER_FIELDS_OF(Number)                                         \
-  template void EulerOperator::complete(CellFields<Number>&) const;         \
+  template void EulerOperator::complete(CellFields<Number>&);               \
   template void EulerOperator::begin_interfaces(CellFields<Number>&) const; \
   template void EulerOperator::end_interfaces(CellFields<Number>&) const;
 WINDHOVER_FIELDS_OF(double)
@@ -213,8 +201,8 @@ WINDHOVER_FIELDS_OF(float)
 void EulerOperator::load_cells(Vec q, const Frames& frames) {
   if (holds(q, frames)) return;
   fill_cells(q, frames);
-  begin_halo(state_);
-  end_halo(state_);
+  halo_.begin(state_.cells.data());
+  halo_.end(state_.cells.data());
   sliding_.begin_exchange(state_.cells.data());
   sliding_.end_exchange(state_.cells.data());
 }

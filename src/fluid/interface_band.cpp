@@ -23,7 +23,6 @@ InterfaceBand::InterfaceBand(InterfaceCoupling& coupling, const BlockPattern& wh
         const Pattern part = cut(whole);
         return BlockIlu(static_cast<int>(cells_.size()), part.start.data(), part.column.data(), kFill);
       }()),
-      changed_(kVariables * coupling.cells().size()),
       b_(kVariables * cells_.size()),
       x_(b_.size()) {
   for (const mesh::Index c : coupling.cells())
@@ -46,22 +45,21 @@ InterfaceBand::Pattern InterfaceBand::cut(const BlockPattern& whole) {
 }
 
 bool InterfaceBand::factor(const double* blocks) {
-  std::vector<double> part(kBlock * from_.size());
-  for (size_t i = 0; i < from_.size(); ++i) std::copy_n(blocks + kBlock * from_[i], kBlock, &part[kBlock * i]);
-  return factors_.factor(part.data());
+  std::vector<const double*> part;
+  for (const int at : from_) part.push_back(blocks + kBlock * at);
+  return factors_.factor(part);
 }
 
-ChangedRows InterfaceBand::right_side(const double* b) {
+void InterfaceBand::right_side(const double* b, double* changed) {
   const std::vector<mesh::Index>& cells = coupling_.cells();
   const auto subtract_product = [&](const auto& at) {
-    for (size_t i = 0; i < cells.size(); ++i) std::copy_n(five(b, cells[i]), kVariables, five(changed_.data(), i));
-    coupling_.subtract_product(at, changed_.data());
+    for (size_t i = 0; i < cells.size(); ++i) std::copy_n(five(b, cells[i]), kVariables, five(changed, i));
+    coupling_.subtract_product(at, changed);
   };
   subtract_product([&](size_t i, float* to) { factors_.solve_row(at_interface_[i], five(b, cells[i]), to); });
   for (size_t i = 0; i < cells_.size(); ++i) std::copy_n(five(b, cells_[i]), kVariables, five(b_.data(), i));
-  factors_.solve(b_.data(), x_.data(), {at_interface_, changed_.data()});
+  factors_.solve(b_.data(), x_.data(), {at_interface_, changed});
   subtract_product([&](size_t i, float* to) { std::copy_n(five(x_.data(), at_interface_[i]), kVariables, to); });
-  return {cells, changed_.data()};
 }
 
 }  // namespace windhover::fluid

@@ -14,11 +14,11 @@ class InterfaceBand {
   /// `whole`: the matrix A of this rank's own cells.
   InterfaceBand(InterfaceCoupling& coupling, const BlockPattern& whole);
 
-  /// Blocks of the whole matrix. False: some pivot cannot be inverted.
+  /// Blocks of the whole matrix, one after the other. False: some pivot cannot be inverted.
   bool factor(const double* blocks);
-  /// b − C x where that is not b, with B x = b − C D⁻¹ b by incomplete factors of B, A's part near an interface, and D
-  /// their pivots. b: five values per owned cell. Valid until the next call. Collective.
-  ChangedRows right_side(const double* b);
+  /// changed = b − C x at the coupling's cells, with B x = b − C D⁻¹ b by incomplete factors of B, A's part near an
+  /// interface, and D their pivots. b: five values per owned cell. Collective.
+  void right_side(const double* b, double* changed);
 
  private:
   struct Pattern {
@@ -31,7 +31,6 @@ class InterfaceBand {
   std::vector<int> from_;             ///< where each block of B is in the whole matrix
   BlockIlu factors_;
   std::vector<int> at_interface_;     ///< places among cells_ of those at an interface
-  std::vector<double> changed_;       ///< five values of each of these
   std::vector<double> b_, x_;         ///< of cells_
 };
 

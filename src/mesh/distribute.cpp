@@ -24,7 +24,7 @@ double distance(const FileCell& a, const FileCell& b) {
 }
 
 /// The cells as a graph of face neighbours, all rows on rank 0. Edges weigh more where cells are small: what a step couples
-/// strongly should not be cut, since factors do not see across.
+/// strongly should not be cut, since factors see one layer across.
 MatHandle neighbour_graph(const std::vector<FileCell>& cells, MPI_Comm comm) {
   const auto n = static_cast<PetscInt>(cells.size());
   std::vector<PetscInt> start{0}, neighbours;

@@ -10,13 +10,11 @@
 namespace windhover::mesh {
 namespace {
 
-/// Cells of one zone are ordered in pieces of at most so many: decisions.md.
-constexpr std::ptrdiff_t kPiece = 100000;
-
 /// Divides cells at the median of the coordinate along which they extend farthest, until pieces are small enough, and
 /// numbers the pieces.
-void bisect(std::span<Index> cells, const std::vector<Vec3>& centre, std::vector<int>& piece, int& n_pieces) {
-  if (std::ssize(cells) <= kPiece) {
+void bisect(std::span<Index> cells, Index largest, const std::vector<Vec3>& centre, std::vector<int>& piece,
+            int& n_pieces) {
+  if (std::ssize(cells) <= largest) {
     for (const Index c : cells) piece[c] = n_pieces;
     ++n_pieces;
     return;
@@ -29,12 +27,12 @@ void bisect(std::span<Index> cells, const std::vector<Vec3>& centre, std::vector
   std::nth_element(cells.begin(), cells.begin() + half, cells.end(), [&](Index a, Index b) {
     return std::pair(centre[a][along], a) < std::pair(centre[b][along], b);
   });
-  bisect(cells.first(half), centre, piece, n_pieces);
-  bisect(cells.subspan(half), centre, piece, n_pieces);
+  bisect(cells.first(half), largest, centre, piece, n_pieces);
+  bisect(cells.subspan(half), largest, centre, piece, n_pieces);
 }
 
 /// The piece of each owned cell, zone by zone.
-std::vector<int> pieces(const MeshPart& part) {
+std::vector<int> pieces(const MeshPart& part, Index largest) {
   std::vector<Vec3> centre(part.n_owned);  // of its corners
   std::map<int, std::vector<Index>> zones;
   for (Index c = 0; c < part.n_owned; ++c) {
@@ -46,13 +44,13 @@ std::vector<int> pieces(const MeshPart& part) {
   }
   std::vector<int> piece(part.n_owned);
   int n_pieces = 0;
-  for (auto& [zone, cells] : zones) bisect(cells, centre, piece, n_pieces);
+  for (auto& [zone, cells] : zones) bisect(cells, largest, centre, piece, n_pieces);
   return piece;
 }
 
 /// Reverse Cuthill-McKee over the owned cells of each piece; pieces come one after the other, and so zones.
-std::vector<Index> order_owned(const MeshPart& part) {
-  const std::vector<int> piece = pieces(part);
+std::vector<Index> order_owned(const MeshPart& part, Index largest_piece) {
+  const std::vector<int> piece = pieces(part, largest_piece);
   std::vector<PetscInt> start{0}, columns;
   for (Index c = 0; c < part.n_owned; ++c) {
     const auto first = static_cast<std::ptrdiff_t>(columns.size());
@@ -117,12 +115,12 @@ SfHandle halo_of(const MeshPart& part, const Numbering& numbering, MPI_Comm comm
 
 }  // namespace
 
-Numbering number_cells(const MeshPart& part, MPI_Comm comm) {
+Numbering number_cells(const MeshPart& part, MPI_Comm comm, Index largest_piece) {
   Numbering numbering;
   const PetscInt n_owned = part.n_owned;
   MPI_Scan(&n_owned, &numbering.first_global, 1, MPIU_INT, MPI_SUM, comm);
   numbering.first_global -= n_owned;
-  numbering.cell = order_owned(part);
+  numbering.cell = order_owned(part, largest_piece);
   const std::vector<PetscInt> global = global_numbers(part, numbering, comm);
 
   const auto by_global = [&](Index a, Index b) { return global[a] < global[b]; };

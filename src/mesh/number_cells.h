@@ -14,8 +14,8 @@ struct Numbering {
   SfHandle halo;  ///< as in Mesh
 };
 
-/// Collective. Owned cells by zone, large zones in pieces, within a piece by reverse Cuthill-McKee; halo cells by their
-/// global numbers.
-Numbering number_cells(const MeshPart& part, MPI_Comm comm);
+/// Collective. Owned cells by zone, zones of more than `largest_piece` cells in pieces (decisions.md), within a piece by
+/// reverse Cuthill-McKee; halo cells by their global numbers.
+Numbering number_cells(const MeshPart& part, MPI_Comm comm, Index largest_piece = 100000);
 
 }  // namespace windhover::mesh

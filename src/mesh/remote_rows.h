@@ -1,4 +1,4 @@
-// Rows of other ranks' cells, kept after a rank's own ones.
+// Rows of other ranks' cells, kept beside a rank's own ones.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -16,42 +16,52 @@ namespace windhover::mesh {
 class RemoteRows {
  public:
   RemoteRows() = default;
-  /// Collective. Leaves of one rank must follow each other, in the order of the forest's list.
+  /// Collective. Fastest where the leaves of each rank follow each other, in the order of the forest's list.
   RemoteRows(MPI_Comm comm, PetscSF forest);
 
   /// Fills the leaves of `rows`, plain records; between begin and end no root or leaf may change, and only exchanges of
   /// rows of different sizes may be under way. Collective.
   template <class Row>
   void begin(Row* rows) {
+    begin(rows, rows);
+  }
+  /// Leaves in an array of their own.
+  template <class Row>
+  void begin(const Row* own, Row* leaves) {
     Flight& flight = flights_[sizeof(Row)];
     flight.packed.resize(sent_.size() * sizeof(Row));
+    flight.received.resize(scattered_.size() * sizeof(Row));
     constexpr int kTag = static_cast<int>(sizeof(Row));
+    std::byte* to = scattered_.empty() ? reinterpret_cast<std::byte*>(leaves) : flight.received.data();
     for (const Peer& p : from_) {
       flight.requests.emplace_back();
-      MPI_Irecv(rows + p.first, bytes<Row>(p.count), MPI_BYTE, p.rank, kTag, comm_, &flight.requests.back());
+      MPI_Irecv(to + size_t(p.first) * sizeof(Row), bytes<Row>(p.count), MPI_BYTE, p.rank, kTag, comm_,
+                &flight.requests.back());
     }
     for (const Peer& p : to_) {
       std::byte* packed = flight.packed.data() + size_t(p.first) * sizeof(Row);
-      pack(rows, p, packed);
+      pack(own, p, packed);
       flight.requests.emplace_back();
       MPI_Isend(packed, bytes<Row>(p.count), MPI_BYTE, p.rank, kTag, comm_, &flight.requests.back());
     }
   }
 
   template <class Row>
-  void end(Row*) {
-    std::vector<MPI_Request>& requests = flights_[sizeof(Row)].requests;
-    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
-    requests.clear();
+  void end(Row* leaves) {
+    Flight& flight = flights_[sizeof(Row)];
+    MPI_Waitall(static_cast<int>(flight.requests.size()), flight.requests.data(), MPI_STATUSES_IGNORE);
+    flight.requests.clear();
+    for (size_t k = 0; k < scattered_.size(); ++k)
+      std::memcpy(leaves + scattered_[k], flight.received.data() + k * sizeof(Row), sizeof(Row));
   }
 
  private:
   struct Peer {
     int rank = 0;
-    Index first = 0, count = 0;  ///< of sent_, or of the rows themselves
+    Index first = 0, count = 0;  ///< of sent_, or of scattered_, or of the rows themselves
   };
   struct Flight {
-    std::vector<std::byte> packed;
+    std::vector<std::byte> packed, received;
     std::vector<MPI_Request> requests;
   };
 
@@ -73,7 +83,8 @@ class RemoteRows {
 
   MPI_Comm comm_ = MPI_COMM_NULL;
   std::vector<Peer> to_, from_;
-  std::vector<Index> sent_;  ///< own rows, by the rank that wants them
+  std::vector<Index> sent_;       ///< own rows, by the rank that wants them
+  std::vector<Index> scattered_;  ///< leaves by their rank; none where those of each rank follow each other
   std::map<size_t, Flight> flights_;
 };
 

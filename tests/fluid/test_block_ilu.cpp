@@ -1,13 +1,17 @@
+#include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <random>
+#include <set>
 
 #include "base/petsc.h"
 #include "fluid/block_ilu.h"
+#include "fluid/block_ilu_pc.h"
 
 using windhover::MatHandle;
 using windhover::petsc;
 using windhover::VecHandle;
 using windhover::fluid::BlockIlu;
+using windhover::fluid::set_up_block_ilu;
 
 namespace {
 
@@ -39,11 +43,20 @@ struct RandomMatrix {
     }
   }
 
-  MatHandle petsc_matrix() const {
+  std::vector<const double*> places() const {
+    std::vector<const double*> places;
+    for (size_t k = 0; k < column.size(); ++k) places.push_back(&blocks[25 * k]);
+    return places;
+  }
+
+  /// Of all ranks, if there are more.
+  MatHandle petsc_matrix(MPI_Comm comm = PETSC_COMM_SELF) const {
     MatHandle m;
-    petsc(MatCreateSeqBAIJ(PETSC_COMM_SELF, 5, 5 * kRows, 5 * kRows, 20, nullptr, m.out()));
+    petsc(MatCreateBAIJ(comm, 5, PETSC_DECIDE, PETSC_DECIDE, 5 * kRows, 5 * kRows, 20, nullptr, 20, nullptr, m.out()));
     petsc(MatSetOption(m, MAT_ROW_ORIENTED, PETSC_FALSE));
-    for (int i = 0; i < kRows; ++i)
+    PetscInt first = 0, end = 0;
+    petsc(MatGetOwnershipRange(m, &first, &end));
+    for (int i = first / 5; i < end / 5; ++i)
       petsc(MatSetValuesBlocked(m, 1, &i, start[i + 1] - start[i], &column[start[i]], &blocks[25 * start[i]],
                                 INSERT_VALUES));
     petsc(MatAssemblyBegin(m, MAT_FINAL_ASSEMBLY));
@@ -87,7 +100,7 @@ TEST_CASE("Incomplete factors are PETSc's, to the digits of bfloat16") {
   std::vector<std::vector<double>> solutions;
   for (const int levels : {0, 1, 2}) {
     BlockIlu ilu(kRows, matrix.start.data(), matrix.column.data(), levels);
-    REQUIRE(ilu.factor(matrix.blocks.data()));
+    REQUIRE(ilu.factor(matrix.places()));
     ilu.solve(b.data(), x.data());
     CHECK(difference(x, petsc_solution(matrix, PCILU, levels, b)) < kRounding);
     solutions.push_back(x);
@@ -95,7 +108,7 @@ TEST_CASE("Incomplete factors are PETSc's, to the digits of bfloat16") {
   CHECK(difference(solutions[0], solutions[1]) > 5 * kRounding);  // fill makes a difference here
   CHECK(difference(solutions[1], solutions[2]) > 5 * kRounding);
   BlockIlu whole(kRows, matrix.start.data(), matrix.column.data(), kRows);
-  REQUIRE(whole.factor(matrix.blocks.data()));
+  REQUIRE(whole.factor(matrix.places()));
   whole.solve(b.data(), x.data());
   CHECK(difference(x, petsc_solution(matrix, PCLU, 0, b)) < kRounding);
 }
@@ -103,7 +116,7 @@ TEST_CASE("Incomplete factors are PETSc's, to the digits of bfloat16") {
 TEST_CASE("Rows of the right side can be changed") {
   const RandomMatrix matrix(5);
   BlockIlu ilu(kRows, matrix.start.data(), matrix.column.data(), 1);
-  REQUIRE(ilu.factor(matrix.blocks.data()));
+  REQUIRE(ilu.factor(matrix.places()));
   std::vector<double> b(5 * kRows), x(b.size()), expected(b.size()), values;
   for (size_t i = 0; i < b.size(); ++i) b[i] = std::sin(1.0 + double(i));
   const std::vector<int> rows = {0, 3, 4, kRows - 1};
@@ -115,17 +128,65 @@ TEST_CASE("Rows of the right side can be changed") {
   CHECK(x == expected);
 }
 
+TEST_CASE("Each rank solves its own rows with one layer of the others' around them") {
+  const RandomMatrix random(6);
+  const MatHandle matrix = random.petsc_matrix(PETSC_COMM_WORLD);
+  PetscInt first = 0, end = 0;
+  petsc(MatGetOwnershipRange(matrix, &first, &end));
+  std::set<int> own, rows;
+  for (int i = first / 5; i < end / 5; ++i) own.insert(i);
+  for (const int i : own) rows.insert(&random.column[random.start[i]], &random.column[random.start[i + 1]]);
+  // the same system with dense blocks
+  const std::vector<int> order(rows.begin(), rows.end());
+  const auto n = static_cast<Eigen::Index>(order.size());
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(5 * n, 5 * n);
+  Eigen::VectorXd right(5 * n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (int k = 0; k < 5; ++k) right[5 * i + k] = std::sin(1.0 + 5 * order[i] + k);
+    for (int at = random.start[order[i]]; at < random.start[order[i] + 1]; ++at)
+      if (const auto found = std::find(order.begin(), order.end(), random.column[at]); found != order.end())
+        dense.block<5, 5>(5 * i, 5 * (found - order.begin())) = Eigen::Matrix<double, 5, 5>::Map(&random.blocks[25 * at]);
+  }
+  const Eigen::VectorXd solution = dense.lu().solve(right);
+  std::vector<double> expected, found(end - first);
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (own.contains(order[i])) expected.insert(expected.end(), &solution[5 * i], &solution[5 * i] + 5);
+
+  VecHandle b, x;
+  petsc(MatCreateVecs(matrix, b.out(), x.out()));
+  for (PetscInt k = first; k < end; ++k) petsc(VecSetValue(b, k, std::sin(1.0 + k), INSERT_VALUES));
+  petsc(VecAssemblyBegin(b));
+  petsc(VecAssemblyEnd(b));
+  PC pc = nullptr;
+  petsc(PCCreate(PETSC_COMM_WORLD, &pc));
+  petsc(PCSetOperators(pc, matrix, matrix));
+  set_up_block_ilu(pc, kRows, nullptr);
+  for (int turn = 0; turn < 2; ++turn) {
+    petsc(PCApply(pc, b, x));
+    const double* values = nullptr;
+    petsc(VecGetArrayRead(x, &values));
+    found.assign(values, values + (end - first));
+    petsc(VecRestoreArrayRead(x, &values));
+    CHECK(difference(found, expected) < 1.0 / 512);
+    // other ranks' rows are fetched anew with the matrix
+    petsc(MatScale(matrix, 0.5));
+    petsc(PCSetOperators(pc, matrix, matrix));
+    for (double& value : expected) value *= 2;
+  }
+  petsc(PCDestroy(&pc));
+}
+
 TEST_CASE("Factors can be made again, and tell of a block that has no inverse") {
   RandomMatrix matrix(4);
   BlockIlu ilu(kRows, matrix.start.data(), matrix.column.data(), 1);
-  REQUIRE(ilu.factor(matrix.blocks.data()));
+  REQUIRE(ilu.factor(matrix.places()));
   std::vector<double> b(5 * kRows, 1.0), first(b.size()), second(b.size());
   ilu.solve(b.data(), first.data());
   for (double& value : matrix.blocks) value *= 2;
-  REQUIRE(ilu.factor(matrix.blocks.data()));
+  REQUIRE(ilu.factor(matrix.places()));
   ilu.solve(b.data(), second.data());
   for (double& value : second) value *= 2;
   CHECK(difference(second, first) < 1e-6);
   for (int k = 0; k < 25; ++k) matrix.blocks[k] = 0;
-  CHECK_FALSE(ilu.factor(matrix.blocks.data()));
+  CHECK_FALSE(ilu.factor(matrix.places()));
 }
