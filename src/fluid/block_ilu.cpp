@@ -199,8 +199,7 @@ bool BlockIlu::factor(std::span<const double* const> blocks) {
     place[i] = n_below;
     for (int j = 0; j < n_above; ++j) place[upper_.column[above + j]] = n_below + 1 + j;
     for (int at = given_start_[i]; at < given_start_[i + 1]; ++at)
-      for (int c = 0; c < kSize; ++c)
-        row[place[given_column_[at]]].column[c] = rounded(blocks[at] + kSize * c);
+      for (int c = 0; c < kSize; ++c) row[place[given_column_[at]]].column[c] = rounded(blocks[at] + kSize * c);
     for (int j = 0; j < n_below; ++j) {
       const int k = lower_.column[below + j];
       pack(product(row[j], unpack(&pivot_[size_t(k) * kEntries])), &lower_.block[(below + j) * kEntries]);

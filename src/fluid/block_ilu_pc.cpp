@@ -46,7 +46,8 @@ OverlappingIlu::OverlappingIlu(Mat matrix, int levels, InterfaceCoupling* coupli
     for (const mesh::Index cell : coupling->cells()) changed_rows_.push_back(rows_.before() + cell);
   for (int row = rows_.before() + rows_.own(); row < rows_.rows(); ++row) changed_rows_.push_back(row);
   changed_.resize(kVariables * changed_rows_.size());
-  others_ = mesh::RemoteRows(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), rows_.forest(changed_rows_.size()));
+  others_ =
+      mesh::RemoteRows(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), rows_.forest(changed_rows_.size()));
 }
 
 bool OverlappingIlu::factor() {

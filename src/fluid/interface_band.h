@@ -27,11 +27,11 @@ class InterfaceBand {
   Pattern cut(const BlockPattern& whole);
 
   InterfaceCoupling& coupling_;
-  std::vector<mesh::Index> cells_;    ///< near an interface, ascending
-  std::vector<int> from_;             ///< where each block of B is in the whole matrix
+  std::vector<mesh::Index> cells_;  ///< near an interface, ascending
+  std::vector<int> from_;           ///< where each block of B is in the whole matrix
   BlockIlu factors_;
-  std::vector<int> at_interface_;     ///< places among cells_ of those at an interface
-  std::vector<double> b_, x_;         ///< of cells_
+  std::vector<int> at_interface_;  ///< places among cells_ of those at an interface
+  std::vector<double> b_, x_;      ///< of cells_
 };
 
 }  // namespace windhover::fluid

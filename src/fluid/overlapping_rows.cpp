@@ -110,8 +110,8 @@ SfHandle OverlappingRows::forest(size_t size) const {
   }
   SfHandle forest;
   petsc(PetscSFCreate(comm, forest.out()));
-  petsc(PetscSFSetGraph(forest, own_, static_cast<PetscInt>(leaves.size()), leaves.data(), PETSC_COPY_VALUES, roots.data(),
-                        PETSC_COPY_VALUES));
+  petsc(PetscSFSetGraph(forest, own_, static_cast<PetscInt>(leaves.size()), leaves.data(), PETSC_COPY_VALUES,
+                        roots.data(), PETSC_COPY_VALUES));
   return forest;
 }
 

@@ -24,9 +24,8 @@ void bisect(std::span<Index> cells, Index largest, const std::vector<Vec3>& cent
   Eigen::Index along = 0;
   box.sizes().maxCoeff(&along);
   const size_t half = cells.size() / 2;
-  std::nth_element(cells.begin(), cells.begin() + half, cells.end(), [&](Index a, Index b) {
-    return std::pair(centre[a][along], a) < std::pair(centre[b][along], b);
-  });
+  std::nth_element(cells.begin(), cells.begin() + half, cells.end(),
+                   [&](Index a, Index b) { return std::pair(centre[a][along], a) < std::pair(centre[b][along], b); });
   bisect(cells.first(half), largest, centre, piece, n_pieces);
   bisect(cells.subspan(half), largest, centre, piece, n_pieces);
 }

@@ -22,13 +22,13 @@ struct RandomMatrix {
   std::vector<int> start{0}, column;
   std::vector<double> blocks;
 
-  explicit RandomMatrix(unsigned seed) {
+  explicit RandomMatrix(unsigned seed, int pairs = 2) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<> uniform(-1, 1);
     std::vector<std::vector<bool>> there(kRows, std::vector<bool>(kRows, false));
     for (int i = 0; i < kRows; ++i) {
       there[i][i] = true;
-      for (int k = 0; k < 2; ++k) {
+      for (int k = 0; k < pairs; ++k) {
         const int j = static_cast<int>(random() % kRows);
         there[i][j] = there[j][i] = true;
       }
@@ -129,7 +129,8 @@ TEST_CASE("Rows of the right side can be changed") {
 }
 
 TEST_CASE("Each rank solves its own rows with one layer of the others' around them") {
-  const RandomMatrix random(6);
+  const int pairs = GENERATE(2, 0);  // 0: nothing is coupled
+  const RandomMatrix random(6, pairs);
   const MatHandle matrix = random.petsc_matrix(PETSC_COMM_WORLD);
   PetscInt first = 0, end = 0;
   petsc(MatGetOwnershipRange(matrix, &first, &end));
@@ -145,7 +146,8 @@ TEST_CASE("Each rank solves its own rows with one layer of the others' around th
     for (int k = 0; k < 5; ++k) right[5 * i + k] = std::sin(1.0 + 5 * order[i] + k);
     for (int at = random.start[order[i]]; at < random.start[order[i] + 1]; ++at)
       if (const auto found = std::find(order.begin(), order.end(), random.column[at]); found != order.end())
-        dense.block<5, 5>(5 * i, 5 * (found - order.begin())) = Eigen::Matrix<double, 5, 5>::Map(&random.blocks[25 * at]);
+        dense.block<5, 5>(5 * i, 5 * (found - order.begin())) =
+            Eigen::Matrix<double, 5, 5>::Map(&random.blocks[25 * at]);
   }
   const Eigen::VectorXd solution = dense.lu().solve(right);
   std::vector<double> expected, found(end - first);

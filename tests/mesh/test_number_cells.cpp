@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <numeric>
 
@@ -50,7 +51,8 @@ TEST_CASE("large zones are ordered in pieces that a plane separates") {
       const auto half = cells.begin() + static_cast<std::ptrdiff_t>(cells.size() / 2);
       for (int d = 0; d < 3; ++d) {
         const auto less = [d](const Vec3& a, const Vec3& b) { return a[d] < b[d]; };
-        if ((*std::max_element(cells.begin(), half, less))[d] <= (*std::min_element(half, cells.end(), less))[d]) return true;
+        if ((*std::max_element(cells.begin(), half, less))[d] <= (*std::min_element(half, cells.end(), less))[d])
+          return true;
       }
       return false;
     };

@@ -1,4 +1,6 @@
+#include <array>
 #include <catch2/catch.hpp>
+#include <vector>
 
 #include "base/collective.h"
 #include "mesh/remote_rows.h"
@@ -51,7 +53,8 @@ void check_exchange(int stride) {
     for (int other = 0; other < n_ranks; ++other)
       for (const int row : {7, 2, 9, 2}) {
         if (other == rank) continue;
-        for (int k = 0; k < 8; ++k) expected[leaf].value[k] = static_cast<Number>(1000 * turn + 100 * other + 10 * row + k);
+        for (int k = 0; k < 8; ++k)
+          expected[leaf].value[k] = static_cast<Number>(1000 * turn + 100 * other + 10 * row + k);
         leaf += stride;
       }
     remote.begin(rows.data());
