@@ -195,7 +195,7 @@ void declare(V& v, SolverOptions& o) {
                 "(rational Runge-Kutta) and uses none of the keys of preconditioner, Jacobian and Krylov",
          .choices = {"newton_krylov", "dual_time"}});
   v.key("preconditioner", o.preconditioner,
-        {.doc = "preconditioner; ilu per rank, asm with overlap, rrk: rational Runge-Kutta steps, rrk-multigrid: aggregation multigrid smoothed by them, over ilu",
+        {.doc = "preconditioner; ilu: of each rank's cells and a layer of its neighbours', asm: the same by PETSc in double precision, blind to what crosses sliding interfaces, rrk: rational Runge-Kutta steps, rrk-multigrid: aggregation multigrid smoothed by them, over ilu",
          .choices = {"ilu", "asm", "rrk", "rrk-multigrid", "point_block_jacobi", "lu", "none"}});
   v.key("ilu_levels", o.ilu_levels, {.doc = "levels of fill of the incomplete factors", .min = 0, .max = 10});
   v.key("jacobian", o.jacobian,

@@ -17,8 +17,8 @@ struct Preconditioner {
   void (*set_up)(PC pc, int ilu_levels, InterfaceCoupling* coupling);
 };
 
-/// ilu (each rank's own part), asm (overlap one), rrk (a few rational Runge–Kutta steps), rrk-multigrid (aggregation
-/// multigrid smoothed by them, multigrid.h), point_block_jacobi, lu (UMFPACK, whole problem on every rank), none.
+/// ilu (each rank's part, overlap one), asm (PETSc's, overlap one), rrk (a few rational Runge–Kutta steps), rrk-multigrid
+/// (aggregation multigrid smoothed by them, multigrid.h), point_block_jacobi, lu (UMFPACK, whole problem on every rank), none.
 extern const Preconditioner kPreconditioners[7];
 
 /// UserError naming the valid ones when there is no such one.
