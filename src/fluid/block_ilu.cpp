@@ -150,8 +150,8 @@ class Chain {
 
 void BlockIlu::Triangle::allocate() { block = allocate_blocks(column.size()); }
 
-BlockIlu::BlockIlu(int n, const int* start, const int* column, int levels)
-    : n_(n), count_(n), given_start_(start, start + n + 1), given_column_(column, column + start[n]) {
+BlockIlu::BlockIlu(int n, const int* start, const int* column, int levels, Rows given)
+    : n_(n), rows_(given), given_start_(start, start + n + 1), given_column_(column, column + start[n]) {
   find_pattern(start, column, levels);
   lower_.allocate();
   upper_.allocate();
@@ -243,7 +243,7 @@ void BlockIlu::solve(const double* b, double* x, const ChangedRows& changed) {
   };
   int row = 0;
   const auto as_given = [&](int end) {
-    for (; row < end; ++row) substitute(row, b + size_t(row - first_) * kSize);
+    for (; row < end; ++row) substitute(row, b + size_t(row - rows_.first) * kSize);
   };
   for (size_t k = 0; k < changed.rows.size(); ++k) {
     as_given(changed.rows[k]);
@@ -260,10 +260,10 @@ void BlockIlu::solve(const double* b, double* x, const ChangedRows& changed) {
     return y;
   };
   int i = n_;
-  while (i > first_ + count_) substitute_back(--i);
-  while (i > first_) {
+  while (i > rows_.first + rows_.count) substitute_back(--i);
+  while (i > rows_.first) {
     const float* y = substitute_back(--i);
-    std::copy_n(y, kSize, x + size_t(i - first_) * kSize);
+    std::copy_n(y, kSize, x + size_t(i - rows_.first) * kSize);
   }
   while (i > 0) substitute_back(--i);
 }

@@ -16,12 +16,15 @@ struct ChangedRows {
 
 class BlockIlu {
  public:
+  struct Rows {
+    int first, count;
+  };
   /// Pattern of n block rows: columns column[start[i]] to column[start[i + 1] - 1] in ascending order, the diagonal
   /// among them. `levels` of fill: Saad, Iterative Methods for Sparse Linear Systems, 2nd ed., section 10.3.3.
-  BlockIlu(int n, const int* start, const int* column, int levels);
+  BlockIlu(int n, const int* start, const int* column, int levels) : BlockIlu(n, start, column, levels, {0, n}) {}
+  /// Right sides and solutions have the rows `given` alone; the others' right sides are always changed ones.
+  BlockIlu(int n, const int* start, const int* column, int levels, Rows given);
 
-  /// Right sides and solutions have the `count` rows from `first` on alone; the others' right sides are always changed ones.
-  void give(int first, int count) { first_ = first, count_ = count; }
   /// Where the blocks are, each by columns, in the order of the pattern. False: some pivot cannot be inverted.
   bool factor(std::span<const double* const> blocks);
   /// x = U⁻¹ L⁻¹ b, five values a row, with `changed` in place of some.
@@ -39,7 +42,8 @@ class BlockIlu {
   };
   void find_pattern(const int* start, const int* column, int levels);
 
-  int n_, first_ = 0, count_;
+  int n_;
+  Rows rows_;  ///< of right sides and solutions
   std::vector<int> given_start_, given_column_;
   Triangle lower_, upper_;                  ///< L and D⁻¹U, without their unit diagonals
   std::unique_ptr<std::uint16_t[]> pivot_;  ///< D⁻¹, inverses of U's diagonal blocks

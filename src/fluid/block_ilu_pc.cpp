@@ -35,10 +35,11 @@ class OverlappingIlu {
 };
 
 OverlappingIlu::OverlappingIlu(Mat matrix, int levels, InterfaceCoupling* coupling)
-    : inside_(block_parts(matrix).inside),
-      rows_(matrix),
-      factors_(rows_.rows(), rows_.start(), rows_.column(), levels) {
-  factors_.give(rows_.before(), rows_.own());
+    : inside_(block_parts(matrix).inside), rows_(matrix), factors_([&] {
+        const OverlappingRows::Pattern pattern = rows_.pattern();
+        return BlockIlu(rows_.rows(), pattern.start.data(), pattern.column.data(), levels,
+                        {rows_.before(), rows_.own()});
+      }()) {
   if (coupling) band_.emplace(*coupling, BlockPattern(inside_));
   changed_rows_.resize(rows_.before());
   std::iota(changed_rows_.begin(), changed_rows_.end(), 0);

@@ -55,11 +55,6 @@ OverlappingRows::OverlappingRows(Mat matrix) : matrix_(matrix), parts_(block_par
     columns_ = block_set(columns);
     fetch(MAT_INITIAL_MATRIX);
   }
-  for_each_block([this](int row, int column, const double*) {
-    start_.resize(row + 2, static_cast<int>(column_.size()));
-    column_.push_back(column);
-    start_.back() = static_cast<int>(column_.size());
-  });
 }
 
 OverlappingRows::~OverlappingRows() {
@@ -94,6 +89,15 @@ void OverlappingRows::for_each_block(Visit visit) const {
   }
 }
 
+OverlappingRows::Pattern OverlappingRows::pattern() const {
+  Pattern pattern{std::vector<int>(rows() + 1), {}};
+  for_each_block([&](int row, int column, const double*) {
+    pattern.column.push_back(column);
+    pattern.start[row + 1] = static_cast<int>(pattern.column.size());
+  });
+  return pattern;
+}
+
 SfHandle OverlappingRows::forest(size_t size) const {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix_));
   int n_ranks = 1;
@@ -118,7 +122,6 @@ SfHandle OverlappingRows::forest(size_t size) const {
 std::vector<const double*> OverlappingRows::blocks() {
   if (others_) fetch(MAT_REUSE_MATRIX);
   std::vector<const double*> blocks;
-  blocks.reserve(column_.size());
   for_each_block([&](int, int, const double* block) { blocks.push_back(block); });
   return blocks;
 }

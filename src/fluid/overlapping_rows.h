@@ -20,9 +20,11 @@ class OverlappingRows {
   int rows() const { return before_ + own_ + after_; }
   int before() const { return before_; }
   int own() const { return own_; }
-  /// Columns column()[start()[i]] to column()[start()[i + 1] - 1] of row i, ascending.
-  const int* start() const { return start_.data(); }
-  const int* column() const { return column_.data(); }
+  /// Columns column[start[i]] to column[start[i + 1] - 1] of row i, ascending.
+  struct Pattern {
+    std::vector<int> start, column;
+  };
+  Pattern pattern() const;
 
   /// From own rows to those before and after them, as they stand at the two ends of a list of so many rows.
   SfHandle forest(size_t size) const;
@@ -39,7 +41,6 @@ class OverlappingRows {
   IsHandle other_rows_, columns_;  ///< on more than one rank
   Mat* others_ = nullptr;          ///< these rows, in these columns
   int before_ = 0, own_ = 0, after_ = 0;
-  std::vector<int> start_{0}, column_;
 };
 
 }  // namespace windhover::fluid
