@@ -18,6 +18,8 @@ void add_times_volume(const mesh::Mesh& mesh, double alpha, Vec x, Vec y) {
   petsc(VecRestoreArray(y, &to));
 }
 
+double kinetic_energy(const double* q) { return 0.5 * (q[1] * q[1] + q[2] * q[2] + q[3] * q[3]) / q[0]; }
+
 /// By how much each zone turns in `time` if it goes on as now.
 std::vector<mesh::Mat3> turns(const Frames& now, double time) {
   std::vector<mesh::Mat3> result;
@@ -132,9 +134,11 @@ double FlowSolver::next_tightness() const {
   return std::min(1.0, kRise * state_.tightness);
 }
 
-/// out: q_{n−1} and q_n extended in a line by fraction Δt. Momentum goes on in inertial axes or in those of its zone, in which
-/// flow around a blade is nearly steady: where it changed less in the last step. A cell follows the line until its density or
-/// pressure has changed by kMost: beyond, it says nothing, and a cell near vacuum would stall the linear solver.
+/// out: pressure and velocity of q_{n−1} and q_n extended in a line by fraction Δt, at the entropy of q_n: a gas without shocks
+/// keeps it, and what Newton's method leaves of it in a small cell swings from step to step; along the line it would come back
+/// up to three times as large. Velocity goes on in inertial axes or in those of its zone, in which flow around a blade is nearly
+/// steady: where it changed less in the last step. A cell follows the line until its pressure has changed by kMost: beyond, it
+/// says nothing, and a cell near vacuum would stall the linear solver.
 void FlowSolver::predict(double fraction, double dt, const Frames& now, Vec out) const {
   constexpr double kMost = 0.2;
   constexpr int kImpulse = 6;  // an impulsive start does not go on as it began
@@ -153,19 +157,18 @@ void FlowSolver::predict(double fraction, double dt, const Frames& now, Vec out)
   for (mesh::Index c = 0; c < euler_.mesh().n_owned; ++c) {
     const int zone = euler_.mesh().cell_zone[c];
     const double *q = now_values + 5 * c, *p = before + 5 * c;
-    double* g = guess + 5 * c;
-    const mesh::Vec3 m(q[1], q[2], q[3]), earlier(p[1], p[2], p[3]);
-    const mesh::Vec3 change = m - earlier, in_zone = m - last[zone] * earlier;
+    const mesh::Vec3 m(q[1], q[2], q[3]), u = m / q[0], earlier = mesh::Vec3(p[1], p[2], p[3]) / p[0];
+    const mesh::Vec3 change = u - earlier, in_zone = u - last[zone] * earlier;
+    const double pressure = primitive(q, gamma).p, rise = (pressure - primitive(p, gamma).p) / pressure;
+    const double share = std::abs(r * rise) > kMost ? kMost / std::abs(rise) : r;
+    const double denser = std::pow(1 + share * rise, 1 / gamma);
     const bool steadier = in_zone.squaredNorm() < change.squaredNorm();
-    const mesh::Vec3 momentum = steadier ? mesh::Vec3(next[zone] * (m + r * in_zone)) : mesh::Vec3(m + r * change);
-    for (const int k : {0, 4}) g[k] = (1 + r) * q[k] - r * p[k];
+    const mesh::Vec3 momentum =
+        denser * (steadier ? mesh::Vec3(next[zone] * (m + share * q[0] * in_zone)) : mesh::Vec3(m + share * q[0] * change));
+    double* g = guess + 5 * c;
+    g[0] = denser * q[0];
     std::copy_n(momentum.data(), 3, g + 1);
-    const auto limit = [&](double relative_change) {
-      if (relative_change > kMost)
-        for (int k = 0; k < kVariables; ++k) g[k] = q[k] + kMost / relative_change * (g[k] - q[k]);
-    };
-    limit(std::abs(g[0] / q[0] - 1));
-    limit(std::abs(primitive(g, gamma).p / primitive(q, gamma).p - 1));  // concave in q: stays above 1 - kMost of itself
+    g[4] = q[4] + share * rise * pressure / (gamma - 1) + kinetic_energy(g) - kinetic_energy(q);
   }
   petsc(VecRestoreArrayWrite(out, &guess));
   petsc(VecRestoreArrayRead(state_.previous, &before));

@@ -23,7 +23,7 @@ struct FlowOptions {
   int start_steps = 0;      ///< backward-Euler steps first: Crank–Nicolson does not damp an impulsive start
   double damping = 0;       ///< w of (1 − w) Crank–Nicolson + w BDF2, see bdf2_coefficients
   double truncation_fraction = 0;  ///< of a step's truncation error, where it is known, that its residual may have
-  bool extrapolate = true;  ///< first guess by linear extrapolation in time
+  bool extrapolate = true;  ///< first guess by linear extrapolation in time, at constant entropy
   int jacobian_lag = 1;     ///< steps that a preconditioner serves at most
   const StageMethod* method = &kStageMethods[0];
   NewtonOptions newton;
