@@ -161,7 +161,7 @@ void FlowSolver::predict(double fraction, double dt, const Frames& now, Vec out)
     const mesh::Vec3 change = u - earlier, in_zone = u - last[zone] * earlier;
     const double pressure = primitive(q, gamma).p, rise = (pressure - primitive(p, gamma).p) / pressure;
     const double share = std::abs(r * rise) > kMost ? kMost / std::abs(rise) : r;
-    const double denser = std::pow(1 + share * rise, 1 / gamma);
+    const double denser = 1 + share * rise / gamma;  // dp = c² dρ
     const bool steadier = in_zone.squaredNorm() < change.squaredNorm();
     const mesh::Vec3 momentum =
         denser * (steadier ? mesh::Vec3(next[zone] * (m + share * q[0] * in_zone)) : mesh::Vec3(m + share * q[0] * change));

@@ -261,7 +261,7 @@ TEST_CASE("the first guess of a step follows a line in time at constant entropy,
   for (mesh::Index c = 0; c < mesh::Index(cells.size()); ++c) {
     const State<double> s = primitive(guess + 5 * c, 1.4);
     CAPTURE(c, s.rho, s.u, s.p);
-    CHECK(s.p * std::pow(s.rho, -1.4) == Approx(cells[c].p * std::pow(cells[c].rho, -1.4)).epsilon(1e-12));
+    CHECK(s.rho == Approx(cells[c].rho * (1 + (cells[c].p_guess / cells[c].p - 1) / 1.4)).epsilon(1e-12));
     CHECK(s.p == Approx(cells[c].p_guess).epsilon(1e-12));
     CHECK(s.u == Approx(cells[c].u_guess).epsilon(1e-12));
   }
