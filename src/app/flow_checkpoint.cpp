@@ -63,7 +63,6 @@ void FlowCheckpoint::write(const std::filesystem::path& directory, const fluid::
     if (!all.empty()) out.array(name, rank_of(mesh_.comm) == 0 ? all : all.first(0), 1);
   };
   remember("third_derivative", {&state.third, 1});
-  remember("tightness", {&state.tightness, 1});
   remember("averages", memory.averages);
   remember("vehicle", memory.vehicle);
   remember("step_control", memory.step);
@@ -90,8 +89,6 @@ Memory FlowCheckpoint::read(const std::filesystem::path& directory, fluid::FlowS
   };
   const auto third = recall("third_derivative");
   state.third = third.empty() ? 0 : third[0];
-  const auto tightness = recall("tightness");
-  state.tightness = tightness.empty() ? 1 : tightness[0];
   return {recall("averages"), recall("vehicle"), recall("step_control")};
 }
 

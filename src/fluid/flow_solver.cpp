@@ -124,16 +124,6 @@ double FlowSolver::good_enough(double rate) const {
   return std::min(options_.truncation_fraction * truncation, kLargest * rate);
 }
 
-/// The 2-norm of the residual hardly sees the smallest cells: one that is small for all of them may still leave such a cell's
-/// density off by more than itself, because what it weighs is little. A step that ends with more than kMost V^(2/3) ρ c of mass
-/// left in a cell has the next ones solved further; several per cent of density are that much where a tenth of the sound speed flows.
-double FlowSolver::next_tightness() const {
-  constexpr double kMost = 0.01, kLeast = 1e-3, kFall = 0.1, kRise = 1.2;
-  const double largest = report_.stages.empty() ? 0 : report_.stages.back().largest;
-  if (largest > kMost) return std::max(kLeast, state_.tightness * std::max(kFall, kMost / largest));
-  return std::min(1.0, kRise * state_.tightness);
-}
-
 /// out: pressure and velocity of q_{n−1} and q_n extended in a line by fraction Δt, at the entropy of q_n: a gas without shocks
 /// keeps it, and what Newton's method leaves of it in a small cell swings from step to step; along the line it would come back
 /// up to three times as large. Velocity goes on in inertial axes or in those of its zone, in which flow around a blade is nearly
@@ -240,7 +230,7 @@ void FlowSolver::begin(const FrameFunction& frames, double dt) {
   dt_ = dt;
   report_ = {};
   const double rate = scheme.implicit ? rate_norm() : 0;
-  scales_.assign(scheme.stages, {.rate = rate, .good_enough = good_enough(rate), .tightness = state_.tightness});
+  scales_.assign(scheme.stages, {.rate = rate, .good_enough = good_enough(rate)});
   const bool starts_at_known = scheme.a[0][0] == 0;
   const Frames now = frames(state_.time);
   if (starts_at_known) euler_.residual(state_.q, now, rates_[0]);
@@ -279,7 +269,6 @@ const StepReport& FlowSolver::iterate(const FrameFunction& frames, int max_newto
 
 void FlowSolver::accept() {
   state_.third = third_derivative();
-  state_.tightness = next_tightness();
   note_krylov();
   std::swap(state_.previous, state_.q);
   std::swap(state_.q, stages_.back());

@@ -14,7 +14,6 @@ struct FlowState {
   double time = 0;
   double last_step = 0;  ///< time since `previous`; 0: there is none
   double third = 0;      ///< |V d³q/dt³| as estimated in the last step, 2-norm; 0: unknown or not asked for
-  double tightness = 1;  ///< StageScale::tightness of the next step
   long step = 0;
 };
 
@@ -79,7 +78,6 @@ class FlowSolver {
   double rate_norm() const;
   double third_derivative() const;
   double good_enough(double rate) const;
-  double next_tightness() const;
 
   EulerOperator& euler_;
   FlowOptions options_;

@@ -31,7 +31,6 @@ NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options)
   const mesh::Mesh& mesh = euler.mesh();
   residual_ = euler.make_vector();
   euler.keep_rates();
-  for (mesh::Index c = 0; c < mesh.n_owned; ++c) per_face_.push_back(std::pow(mesh.volume[c], -2.0 / 3));
   petsc(SNESCreate(mesh.comm, snes_.out()));
   petsc(SNESSetOptionsPrefix(snes_, "fluid_"));
   petsc(SNESSetFunction(snes_, residual_, form_function, this));
@@ -94,19 +93,7 @@ StageReport NewtonKrylov::solve(const StageEquation& equation, Vec q, const Stag
   report_.failed = reason < 0 && reason != SNES_DIVERGED_MAX_IT;
   if (!report_.converged) report_.reason = std::string("Newton: ") + SNESConvergedReasons[reason];
   for (const auto& i : report_.iterations) report_.krylov += i.krylov;
-  report_.largest = largest_residual();
   return report_;
-}
-
-double NewtonKrylov::largest_residual() const {
-  const mesh::Mesh& mesh = euler_.mesh();
-  const double* f = nullptr;
-  double largest = 0;
-  petsc(VecGetArrayRead(residual_, &f));
-  for (mesh::Index c = 0; c < mesh.n_owned; ++c) largest = std::max(largest, std::abs(f[kVariables * c]) * per_face_[c]);
-  petsc(VecRestoreArrayRead(residual_, &f));
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, mesh.comm);
-  return largest;
 }
 
 /// Eisenstat and Walker, SIAM J. Sci. Comput. 17 (1996) 16, choice 2 with its safeguard, and Kelley's against solving for

@@ -31,7 +31,6 @@ class NewtonKrylov : public StageSolver {
 
  private:
   double forcing() const;
-  double largest_residual() const;
   static PetscErrorCode set_forcing(SNES, PetscInt iteration);
   static PetscErrorCode form_function(SNES, Vec x, Vec f, void* self);
   static PetscErrorCode form_jacobian(SNES, Vec x, Mat j, Mat p, void* self);
@@ -54,7 +53,6 @@ class NewtonKrylov : public StageSolver {
   ZoneTurn turned_;  ///< since then; linear systems are solved in the axes from before
   SnesHandle snes_;
   RoundOff round_off_;
-  std::vector<double> per_face_;  ///< V^(-2/3)
   const StageEquation* equation_ = nullptr;
   StageScale scale_;
   double target_ = 0;

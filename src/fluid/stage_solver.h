@@ -27,7 +27,6 @@ struct StageReport {
   bool failed = false;  ///< not converged, and not for want of iterations
   std::string reason;
   int krylov = 0;                          ///< sum
-  double largest = 0;                      ///< mass residual of a cell in V^(2/3) ρ c, where the method knows it
   std::vector<StageIteration> iterations;  ///< entry 0: the starting residual
 };
 
@@ -35,12 +34,11 @@ struct StageReport {
 struct StageScale {
   double rate = 0;         ///< how fast the flow changes, |V dq/dt|
   double good_enough = 0;  ///< a residual that need not be less
-  double tightness = 1;    ///< factor on either, down to round-off
   double before = -1;      ///< residual of the same q under the frames it was last solved with; below 0: there are none
 
   /// What the residual must fall to.
   double target(double tolerance, double floor) const {
-    return std::max(tightness * std::max(tolerance, good_enough), floor);
+    return std::max({tolerance, good_enough, floor});
   }
   /// The flow's answer to the frames' move since then is less than the error that Newton may leave.
   bool unmoved(double residual, double target) const {
@@ -52,10 +50,9 @@ class StageSolver {
  public:
   virtual ~StageSolver() = default;
 
-  /// q: first guess in, solution out. Converged: |F| <= tolerance * max(|F(guess)|, scale.rate), or good enough, either
-  /// times scale.tightness, or at round-off. With min_iterations > 0 only round-off will do before them, unless the
-  /// frames' move is not felt (StageScale::unmoved). max_newton, 0: what the options say, is obeyed where few
-  /// iterations bring q closer.
+  /// q: first guess in, solution out. Converged: |F| <= tolerance * max(|F(guess)|, scale.rate), or good enough, or at
+  /// round-off. With min_iterations > 0 only round-off will do before them, unless the frames' move is not felt
+  /// (StageScale::unmoved). max_newton, 0: what the options say, is obeyed where few iterations bring q closer.
   virtual StageReport solve(const StageEquation& equation, Vec q, const StageScale& scale, int max_newton = 0,
                             int min_iterations = 0) = 0;
   /// What is kept from one solve to the next is made anew.

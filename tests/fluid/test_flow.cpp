@@ -268,30 +268,6 @@ TEST_CASE("the first guess of a step follows a line in time at constant entropy,
   petsc(VecRestoreArrayRead(solver.iterate(), &guess));
 }
 
-TEST_CASE("a step that leaves much in one small cell has the next ones solved further", "[flow]") {
-  const mesh::Mesh mesh = mesh::read_mesh(make_mesh("cube"), 1.0, PETSC_COMM_WORLD);
-  EulerOperator euler(mesh, closed_box(mesh));
-  FlowOptions options;
-  options.scheme = &time_scheme("crank_nicolson");
-  options.damping = 0.25;
-  options.newton.tolerance = 0.3;
-  FlowSolver solver(euler, options);
-  const FrameFunction frames = frames_of(mesh, {});
-  set_initial(euler, frames(0), riemann_state({1, 0, 0}, 0.5, {1, 0, 0, 0, 1}, {0.5, 0, 0, 0, 0.5}), solver.state().q);
-  std::vector<double> left;
-  double least = 1;
-  for (int step = 0; step < 8; ++step) {
-    const StepReport report = solver.advance(frames, 0.1);
-    REQUIRE(report.accepted);
-    left.push_back(report.stages.back().largest);
-    least = std::min(least, solver.state().tightness);
-  }
-  CAPTURE(left, least);
-  CHECK(left.front() > 0.02);
-  CHECK(least < 1);
-  CHECK(*std::max_element(left.begin() + 2, left.end()) < 0.015);
-}
-
 TEST_CASE("a step that cannot be solved is refused and leaves the state as it was", "[flow]") {
   const mesh::Mesh mesh = mesh::read_mesh(make_mesh("cube"), 1.0, PETSC_COMM_WORLD);
   EulerOperator euler(mesh, closed_box(mesh));
