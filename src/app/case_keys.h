@@ -209,7 +209,7 @@ void declare(V& v, SolverOptions& o) {
   v.key("dual_time_iterations", o.dual_time_iterations, {.doc = "pseudo-steps of dual time before a step is halved", .min = 1});
   v.key("dual_time_cfl", o.dual_time_cfl,
         {.doc = "acoustic Courant number of each cell's pseudo-step, which the step itself bounds besides", .above = 0});
-  v.key("eisenstat_walker", o.eisenstat_walker, {.doc = "choose the Krylov tolerance by Eisenstat and Walker"});
+  v.key("eisenstat_walker", o.eisenstat_walker, {.doc = "choose the Krylov tolerance by Eisenstat and Walker; a solve may then end with the preconditioner alone"});
   v.key("krylov_tolerance", o.krylov_tolerance,
         {.doc = "fall of the linear residual when eisenstat_walker is false", .above = 0, .max = 1});
   v.key("krylov_iterations", o.krylov_iterations, {.doc = "Krylov iterations per Newton iteration, at most", .min = 1});

@@ -67,6 +67,8 @@ NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options)
   petsc(KSPSetType(ksp, KSPFGMRES));
   petsc(KSPGMRESSetRestart(ksp, options_.krylov_restart));
   petsc(KSPSetTolerances(ksp, options_.krylov_tolerance, 0, PETSC_DEFAULT, options_.krylov_iterations));
+  last_correction_.emplace(ksp);
+  last_correction_->allow(options_.eisenstat_walker);
   petsc(KSPSetPreSolve(ksp, enter_axes, this));
   petsc(KSPSetPostSolve(ksp, leave_axes, this));
   petsc(KSPGetPC(ksp, &pc));
@@ -101,7 +103,7 @@ StageReport NewtonKrylov::solve(const StageEquation& equation, Vec q, const Stag
 /// Eisenstat–Walker lacks the latter: a residual one tenth above the target was brought a hundred times below. The first
 /// iteration goes for the target, by kFirst at most: from an extrapolated start the equation is almost linear.
 double NewtonKrylov::forcing() const {
-  constexpr double kFirst = 0.001, kGamma = 0.9, kMemory = 0.1, kLargest = 0.3;
+  constexpr double kFirst = 0.001, kGamma = 0.9, kMemory = 0.1, kLargest = 0.3, kOfTarget = 0.9;
   const auto& done = report_.iterations;
   if (!options_.eisenstat_walker) return options_.krylov_tolerance;
   const double now = done.back().residual;
@@ -110,7 +112,7 @@ double NewtonKrylov::forcing() const {
     const double ratio = now / done[done.size() - 2].residual, last = kGamma * forcing_ * forcing_;
     convergence = std::max(kGamma * ratio * ratio, last > kMemory ? last : 0);
   }
-  return std::min(std::max(convergence, 0.8 * target_ / now), kLargest);
+  return std::min(std::max(convergence, kOfTarget * target_ / now), kLargest);
 }
 
 PetscErrorCode NewtonKrylov::set_forcing(SNES snes, PetscInt) {
@@ -163,9 +165,10 @@ PetscErrorCode NewtonKrylov::enter_axes(KSP, Vec b, Vec, void* context) {
   });
 }
 
-PetscErrorCode NewtonKrylov::leave_axes(KSP, Vec b, Vec x, void* context) {
+PetscErrorCode NewtonKrylov::leave_axes(KSP ksp, Vec b, Vec x, void* context) {
   auto& self = *static_cast<NewtonKrylov*>(context);
   return self.guard_.run([&] {
+    self.last_correction_->apply(ksp, b, x);
     if (self.turned_.none()) return;
     self.turned_.forth(self.euler_.mesh(), b);
     self.turned_.forth(self.euler_.mesh(), x);
@@ -178,6 +181,7 @@ PetscErrorCode NewtonKrylov::multiply(Mat matrix, Vec x, Vec y) {
   if (code) return code;
   auto& self = *static_cast<NewtonKrylov*>(context);
   return self.guard_.run([&] {
+    self.last_correction_->note_product(y);
     const ZoneTurn& turned = self.turned_;
     if (self.options_.exact_jacobian) {
       self.euler_.derivative(x, y, {self.equation_->combination.mass, self.equation_->combination.rate}, turned,

@@ -1,6 +1,7 @@
 // One implicit stage by Newton–Krylov (SNES, flexible GMRES).
 #pragma once
 #include "fluid/interface_coupling.h"
+#include "fluid/last_correction.h"
 #include "fluid/preconditioner.h"
 #include "fluid/stage_solver.h"
 #include "fluid/zone_turn.h"
@@ -52,6 +53,7 @@ class NewtonKrylov : public StageSolver {
   Frames made_in_;   ///< where the zones were when the preconditioner was made
   ZoneTurn turned_;  ///< since then; linear systems are solved in the axes from before
   SnesHandle snes_;
+  std::optional<LastCorrection> last_correction_;
   RoundOff round_off_;
   const StageEquation* equation_ = nullptr;
   StageScale scale_;
