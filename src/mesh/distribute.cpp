@@ -3,7 +3,6 @@
 #include <petscmat.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 
 #include "base/mpi_type.h"
@@ -14,44 +13,24 @@ namespace {
 
 using PartitioningHandle = Handle<MatPartitioning, MatPartitioningDestroy>;
 
-double distance(const FileCell& a, const FileCell& b) {
-  const auto middle = [](const FileCell& cell) {
-    Vec3 sum = Vec3::Zero();
-    for (int i = 0; i < point_count(cell.type); ++i) sum += cell.corners[i].position;
-    return Vec3(sum / point_count(cell.type));
-  };
-  return (middle(a) - middle(b)).norm();
-}
-
-/// The cells as a graph of face neighbours, all rows on rank 0. Edges weigh more where cells are small: what a step couples
-/// strongly should not be cut, since factors see one layer across.
+/// The cells as a graph of face neighbours, all rows on rank 0.
 MatHandle neighbour_graph(const std::vector<FileCell>& cells, MPI_Comm comm) {
   const auto n = static_cast<PetscInt>(cells.size());
   std::vector<PetscInt> start{0}, neighbours;
-  std::vector<double> length;
   for (const FileCell& cell : cells) {
     for (const FileSide& side : cell.sides)
-      if (side.neighbour >= 0) {
-        neighbours.push_back(side.neighbour);
-        length.push_back(distance(cell, cells[side.neighbour]));
-      }
+      if (side.neighbour >= 0) neighbours.push_back(side.neighbour);
     start.push_back(static_cast<PetscInt>(neighbours.size()));
   }
-  std::vector<double> sorted = length;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  if (!sorted.empty()) std::nth_element(sorted.begin(), middle, sorted.end());
-  PetscInt *rows = nullptr, *columns = nullptr, *weights = nullptr;  // the matrix frees them
+  PetscInt *rows = nullptr, *columns = nullptr;  // the matrix frees them
   petsc(PetscMalloc1(start.size(), &rows));
   petsc(PetscMalloc1(neighbours.size(), &columns));
-  petsc(PetscMalloc1(neighbours.size(), &weights));
   std::copy(start.begin(), start.end(), rows);
   std::copy(neighbours.begin(), neighbours.end(), columns);
-  for (std::size_t k = 0; k < length.size(); ++k)
-    weights[k] = std::lround(std::clamp(10 * std::pow(*middle / length[k], 0.75), 1.0, 1000.0));
   PetscInt n_all = n;
   MPI_Bcast(&n_all, 1, MPIU_INT, 0, comm);
   MatHandle graph;
-  petsc(MatCreateMPIAdj(comm, n, n_all, rows, columns, weights, graph.out()));
+  petsc(MatCreateMPIAdj(comm, n, n_all, rows, columns, nullptr, graph.out()));
   return graph;
 }
 
@@ -78,7 +57,6 @@ std::vector<int> partition(const FileMesh& whole, const std::set<std::string>& s
   petsc(MatPartitioningCreate(comm, partitioning.out()));
   petsc(MatPartitioningSetAdjacency(partitioning, graph));
   petsc(MatPartitioningSetType(partitioning, MATPARTITIONINGPTSCOTCH));
-  petsc(MatPartitioningSetUseEdgeWeights(partitioning, PETSC_TRUE));
   petsc(MatPartitioningSetVertexWeights(partitioning, cell_weights(whole, sliding)));  // which it frees
   petsc(MatPartitioningSetNParts(partitioning, n_ranks));
   IsHandle ranks;
