@@ -17,7 +17,7 @@ LastCorrection::~LastCorrection() { KSPConvergedDefaultDestroy(default_test_); }
 bool LastCorrection::expected(double goal) const {
   constexpr double kWorse = 1.3;
   const size_t m = norms_.size() - 1;
-  if (m < 2 || basis_.size() != m) return false;  // not so after a restart, nor in other methods
+  if (m < 2) return false;
   const double left = std::max(norms_[m] / norms_[m - 1], norms_[m - 1] / norms_[m - 2]);
   return kWorse * left < 1 && kWorse * left * norms_[m] <= goal;
 }
@@ -31,11 +31,12 @@ PetscErrorCode LastCorrection::test(KSP ksp, PetscInt iteration, PetscReal norm,
     self.basis_.clear();
   }
   self.norms_.push_back(norm);
+  const bool restarted = self.norms_.size() != static_cast<size_t>(iteration) + 1;  // which is tested once more, and has another basis
   PetscBool flexible = PETSC_FALSE;
   PetscReal fall = 0;
   if (const PetscErrorCode e = PetscObjectTypeCompare(reinterpret_cast<PetscObject>(ksp), KSPFGMRES, &flexible)) return e;
   if (const PetscErrorCode e = KSPGetTolerances(ksp, &fall, nullptr, nullptr, nullptr)) return e;
-  self.wanted_ = self.allowed_ && flexible && *reason == KSP_CONVERGED_ITERATING && self.expected(fall * self.norms_[0]);
+  self.wanted_ = flexible && !restarted && *reason == KSP_CONVERGED_ITERATING && self.expected(fall * self.norms_[0]);
   if (self.wanted_) *reason = KSP_CONVERGED_RTOL;
   return 0;
 }
@@ -49,7 +50,7 @@ void LastCorrection::apply(KSP ksp, Vec b, Vec x) {
     const double s = norms_[m] / norms_[m - 1];
     last *= -s;
     for (double& before : share) before *= s * s;
-    share.push_back(std::sqrt(1 - s * s) * last);
+    share.push_back(std::sqrt(std::max(0.0, 1 - s * s)) * last);
   }
   const Vec residual = basis_.back(), correction = basis_.front();
   petsc(VecScale(residual, share.back()));

@@ -18,8 +18,6 @@ class LastCorrection {
   LastCorrection(const LastCorrection&) = delete;
   LastCorrection& operator=(const LastCorrection&) = delete;
 
-  /// In the solves from here on.
-  void allow(bool yes) { allowed_ = yes; }
   /// y: the result of a product; flexible GMRES makes the next vector of its basis of it, in place.
   void note_product(Vec y) { basis_.push_back(y); }
   /// After a solve of A x = b: x += M⁻¹ r, if it stopped for that. The basis is gone then.
@@ -30,7 +28,7 @@ class LastCorrection {
   bool expected(double goal) const;
 
   void* default_test_ = nullptr;
-  bool allowed_ = false, wanted_ = false;
+  bool wanted_ = false;
   std::vector<double> norms_;  ///< of the residuals so far
   std::vector<Vec> basis_;     ///< after the first vector, which is b over its norm
 };

@@ -67,8 +67,7 @@ NewtonKrylov::NewtonKrylov(EulerOperator& euler, const NewtonOptions& options)
   petsc(KSPSetType(ksp, KSPFGMRES));
   petsc(KSPGMRESSetRestart(ksp, options_.krylov_restart));
   petsc(KSPSetTolerances(ksp, options_.krylov_tolerance, 0, PETSC_DEFAULT, options_.krylov_iterations));
-  last_correction_.emplace(ksp);
-  last_correction_->allow(options_.eisenstat_walker);
+  if (options_.eisenstat_walker) last_correction_.emplace(ksp);
   petsc(KSPSetPreSolve(ksp, enter_axes, this));
   petsc(KSPSetPostSolve(ksp, leave_axes, this));
   petsc(KSPGetPC(ksp, &pc));
@@ -168,7 +167,7 @@ PetscErrorCode NewtonKrylov::enter_axes(KSP, Vec b, Vec, void* context) {
 PetscErrorCode NewtonKrylov::leave_axes(KSP ksp, Vec b, Vec x, void* context) {
   auto& self = *static_cast<NewtonKrylov*>(context);
   return self.guard_.run([&] {
-    self.last_correction_->apply(ksp, b, x);
+    if (self.last_correction_) self.last_correction_->apply(ksp, b, x);
     if (self.turned_.none()) return;
     self.turned_.forth(self.euler_.mesh(), b);
     self.turned_.forth(self.euler_.mesh(), x);
@@ -181,7 +180,7 @@ PetscErrorCode NewtonKrylov::multiply(Mat matrix, Vec x, Vec y) {
   if (code) return code;
   auto& self = *static_cast<NewtonKrylov*>(context);
   return self.guard_.run([&] {
-    self.last_correction_->note_product(y);
+    if (self.last_correction_) self.last_correction_->note_product(y);
     const ZoneTurn& turned = self.turned_;
     if (self.options_.exact_jacobian) {
       self.euler_.derivative(x, y, {self.equation_->combination.mass, self.equation_->combination.rate}, turned,

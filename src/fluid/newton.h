@@ -53,7 +53,7 @@ class NewtonKrylov : public StageSolver {
   Frames made_in_;   ///< where the zones were when the preconditioner was made
   ZoneTurn turned_;  ///< since then; linear systems are solved in the axes from before
   SnesHandle snes_;
-  std::optional<LastCorrection> last_correction_;
+  std::optional<LastCorrection> last_correction_;  ///< where Newton's method may judge a linear solve
   RoundOff round_off_;
   const StageEquation* equation_ = nullptr;
   StageScale scale_;

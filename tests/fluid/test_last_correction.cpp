@@ -32,7 +32,7 @@ struct Solver {
   Handle<KSP, KSPDestroy> ksp;
   std::optional<LastCorrection> last;
 
-  explicit Solver(KSPType type, double fall) {
+  Solver(KSPType type, double fall, bool may_end_early) {
     PetscInt own = 0;
     petsc(MatCreateVecs(matrix, x.out(), b.out()));
     petsc(VecGetLocalSize(b, &own));
@@ -45,7 +45,7 @@ struct Solver {
     petsc(KSPGetPC(ksp, &pc));
     petsc(PCSetType(pc, PCJACOBI));
     petsc(KSPSetTolerances(ksp, fall, 0, PETSC_DEFAULT, 100));
-    last.emplace(ksp);
+    if (may_end_early) last.emplace(ksp);
     PetscInt first = 0, end = 0;
     petsc(VecGetOwnershipRange(b, &first, &end));
     for (PetscInt i = first; i < end; ++i) petsc(VecSetValue(b, i, std::cos(1.7 * i * i), INSERT_VALUES));
@@ -56,7 +56,7 @@ struct Solver {
     void* context = nullptr;
     petsc(MatShellGetContext(m, &context));
     auto& self = *static_cast<Solver*>(context);
-    self.last->note_product(y);
+    if (self.last) self.last->note_product(y);
     return MatMult(self.matrix, x, y);
   }
   int solve() {
@@ -85,15 +85,13 @@ double norm(Vec v) {
 
 TEST_CASE("a linear solve may end with the preconditioner alone where that is expected to do", "[krylov]") {
   constexpr double kFall = 0.01;
-  Solver whole(KSPFGMRES, kFall), shorter(KSPFGMRES, kFall);
-  shorter.last->allow(true);
+  Solver whole(KSPFGMRES, kFall, false), shorter(KSPFGMRES, kFall, true);
   const int iterations = whole.solve(), fewer = shorter.solve();
   CAPTURE(iterations, fewer);
   CHECK(fewer == iterations - 1);
 
-  VecHandle expected, x;
+  VecHandle expected;
   petsc(VecDuplicate(shorter.x, expected.out()));
-  petsc(VecDuplicate(shorter.x, x.out()));
   PC pc = nullptr;
   petsc(KSPGetPC(shorter.ksp, &pc));
   petsc(PCApply(pc, shorter.residual(), expected));
@@ -103,19 +101,16 @@ TEST_CASE("a linear solve may end with the preconditioner alone where that is ex
   petsc(VecAXPY(expected, -1, shorter.x));
   CHECK(norm(expected) < 1e-12 * norm(shorter.x));
   CHECK(norm(shorter.residual()) < kFall * norm(shorter.b));
-
-  petsc(VecCopy(whole.x, x));
-  whole.last->apply(whole.ksp, whole.b, whole.x);
-  petsc(VecAXPY(x, -1, whole.x));
-  CHECK(norm(x) == 0);
 }
 
 TEST_CASE("only flexible GMRES that has not been restarted ends with the preconditioner alone", "[krylov]") {
-  const char* type = GENERATE(KSPFGMRES, KSPGMRES);
-  CAPTURE(type);
-  Solver s(type, 1e-3), reference(type, 1e-3);
-  s.last->allow(true);
-  for (const Solver* each : {&s, &reference}) petsc(KSPGMRESSetRestart(each->ksp, 3));
+  const bool flexible = GENERATE(false, true);
+  const double fall = GENERATE(1e-4, 1e-5, 1e-6, 1e-7);
+  CAPTURE(flexible, fall);
+  const char* type = flexible ? KSPFGMRES : KSPGMRES;
+  Solver s(type, fall, true), reference(type, fall, false);
+  if (flexible)
+    for (const Solver* each : {&s, &reference}) petsc(KSPGMRESSetRestart(each->ksp, 3));
   CHECK(s.solve() == reference.solve());
   const double before = norm(s.residual());
   s.last->apply(s.ksp, s.b, s.x);
