@@ -31,12 +31,13 @@ PetscErrorCode LastCorrection::test(KSP ksp, PetscInt iteration, PetscReal norm,
     self.basis_.clear();
   }
   self.norms_.push_back(norm);
-  const bool restarted = self.norms_.size() != static_cast<size_t>(iteration) + 1;  // which is tested once more, and has another basis
+  // not so after a restart, which takes a product of its own, nor where the preconditioner multiplies with the matrix, too
+  const bool known = self.basis_.size() == static_cast<size_t>(iteration);
   PetscBool flexible = PETSC_FALSE;
   PetscReal fall = 0;
   if (const PetscErrorCode e = PetscObjectTypeCompare(reinterpret_cast<PetscObject>(ksp), KSPFGMRES, &flexible)) return e;
   if (const PetscErrorCode e = KSPGetTolerances(ksp, &fall, nullptr, nullptr, nullptr)) return e;
-  self.wanted_ = flexible && !restarted && *reason == KSP_CONVERGED_ITERATING && self.expected(fall * self.norms_[0]);
+  self.wanted_ = flexible && known && *reason == KSP_CONVERGED_ITERATING && self.expected(fall * self.norms_[0]);
   if (self.wanted_) *reason = KSP_CONVERGED_RTOL;
   return 0;
 }

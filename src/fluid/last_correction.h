@@ -30,7 +30,7 @@ class LastCorrection {
   void* default_test_ = nullptr;
   bool wanted_ = false;
   std::vector<double> norms_;  ///< of the residuals so far
-  std::vector<Vec> basis_;     ///< after the first vector, which is b over its norm
+  std::vector<Vec> basis_;     ///< results of products: the basis after the first vector, which is b over its norm
 };
 
 }  // namespace windhover::fluid

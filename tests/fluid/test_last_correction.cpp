@@ -103,6 +103,27 @@ TEST_CASE("a linear solve may end with the preconditioner alone where that is ex
   CHECK(norm(shorter.residual()) < kFall * norm(shorter.b));
 }
 
+TEST_CASE("a linear solve whose preconditioner multiplies with its matrix does not end early", "[krylov]") {
+  const double fall = GENERATE(1e-2, 1e-3, 1e-4, 1e-5, 1e-6);
+  CAPTURE(fall);
+  Solver s(KSPFGMRES, fall, true), reference(KSPFGMRES, fall, false);
+  for (const Solver* each : {&s, &reference}) {
+    PC pc = nullptr;
+    KSP inner = nullptr;
+    petsc(KSPGetPC(each->ksp, &pc));
+    petsc(PCSetType(pc, PCKSP));
+    petsc(PCSetUseAmat(pc, PETSC_TRUE));
+    petsc(PCKSPGetKSP(pc, &inner));
+    petsc(KSPSetType(inner, KSPRICHARDSON));
+    petsc(KSPRichardsonSetScale(inner, 0.3));
+    petsc(KSPSetTolerances(inner, 0, 0, PETSC_DEFAULT, 2));
+  }
+  CHECK(s.solve() == reference.solve());
+  const double before = norm(s.residual());
+  s.last->apply(s.ksp, s.b, s.x);
+  CHECK(norm(s.residual()) == before);
+}
+
 TEST_CASE("only flexible GMRES that has not been restarted ends with the preconditioner alone", "[krylov]") {
   const bool flexible = GENERATE(false, true);
   const double fall = GENERATE(1e-4, 1e-5, 1e-6, 1e-7);
