@@ -37,7 +37,7 @@ struct Patch {
 
 /// Cells are numbered: owned [0, n_owned), then halo cells that share a face with an owned one [n_owned, n_gradient)
 /// (gradients are needed there), then halo cells that share a node with any of those [n_gradient, n_cells) (values only).
-/// Owned cells are ordered by zone, large zones in pieces, each by reverse Cuthill-McKee. Zones, patches: same lists on
+/// Owned cells are ordered by zone, in a zone from its sliding interfaces on (number_cells.h). Zones, patches: same lists on
 /// every rank, in the order of their physical tags (patches of one tag by zone).
 /// Zones never share faces or nodes: where their cells touch in the file, the mesh is cut into a patch of each.
 /// Periodic surfaces: a node stands for all its periodic images, a point is one image of it; so the neighbours

@@ -1,62 +1,19 @@
 #include "mesh/number_cells.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <map>
 #include <numeric>
-#include <span>
-#include <utility>
 
 namespace windhover::mesh {
 namespace {
 
-/// Divides cells at the median of the coordinate along which they extend farthest, until pieces are small enough, and
-/// numbers the pieces.
-void bisect(std::span<Index> cells, Index largest, const std::vector<Vec3>& centre, std::vector<int>& piece,
-            int& n_pieces) {
-  if (std::ssize(cells) <= largest) {
-    for (const Index c : cells) piece[c] = n_pieces;
-    ++n_pieces;
-    return;
-  }
-  Eigen::AlignedBox3d box;
-  for (const Index c : cells) box.extend(centre[c]);
-  Eigen::Index along = 0;
-  box.sizes().maxCoeff(&along);
-  const size_t half = cells.size() / 2;
-  std::nth_element(cells.begin(), cells.begin() + half, cells.end(),
-                   [&](Index a, Index b) { return std::pair(centre[a][along], a) < std::pair(centre[b][along], b); });
-  bisect(cells.first(half), largest, centre, piece, n_pieces);
-  bisect(cells.subspan(half), largest, centre, piece, n_pieces);
-}
-
-/// The piece of each owned cell, zone by zone.
-std::vector<int> pieces(const MeshPart& part, Index largest) {
-  std::vector<Vec3> centre(part.n_owned);  // of its corners
-  std::map<int, std::vector<Index>> zones;
-  for (Index c = 0; c < part.n_owned; ++c) {
-    const int n = static_cast<int>(part.cells[c].type);
-    Vec3 sum = Vec3::Zero();
-    for (int k = 0; k < n; ++k) sum += part.cells[c].corners[k].position;
-    centre[c] = sum / n;
-    zones[part.cells[c].zone].push_back(c);
-  }
-  std::vector<int> piece(part.n_owned);
-  int n_pieces = 0;
-  for (auto& [zone, cells] : zones) bisect(cells, largest, centre, piece, n_pieces);
-  return piece;
-}
-
-/// Reverse Cuthill-McKee over the owned cells of each piece; pieces come one after the other, and so zones.
-std::vector<Index> order_owned(const MeshPart& part, Index largest_piece) {
-  const std::vector<int> piece = pieces(part, largest_piece);
+/// Owned cells by reverse Cuthill-McKee.
+std::vector<Index> reverse_cuthill_mckee(const MeshPart& part) {
   std::vector<PetscInt> start{0}, columns;
   for (Index c = 0; c < part.n_owned; ++c) {
     const auto first = static_cast<std::ptrdiff_t>(columns.size());
     columns.push_back(c);
     for (const FileSide& side : part.cells[c].sides)
-      if (side.neighbour >= 0 && side.neighbour < part.n_owned && piece[side.neighbour] == piece[c])
-        columns.push_back(side.neighbour);
+      if (side.neighbour >= 0 && side.neighbour < part.n_owned) columns.push_back(side.neighbour);
     std::sort(columns.begin() + first, columns.end());
     start.push_back(static_cast<PetscInt>(columns.size()));
   }
@@ -70,7 +27,32 @@ std::vector<Index> order_owned(const MeshPart& part, Index largest_piece) {
   petsc(ISGetIndices(rows, &order));
   std::vector<Index> cells(order, order + part.n_owned);
   petsc(ISRestoreIndices(rows, &order));
-  std::stable_sort(cells.begin(), cells.end(), [&](Index a, Index b) { return piece[a] < piece[b]; });
+  return cells;
+}
+
+/// Zone by zone, from the cells at sliding interfaces on by Cuthill-McKee, the others by reverse Cuthill-McKee. Incomplete
+/// factors in this order carry what changes at an interface to the blades and back (decisions.md).
+std::vector<Index> order_owned(const MeshPart& part, const std::vector<bool>& sliding) {
+  const std::vector<Index> plain = reverse_cuthill_mckee(part);
+  std::vector<Index> place(part.n_owned), cells;
+  for (Index i = 0; i < part.n_owned; ++i) place[plain[i]] = i;
+  std::vector<bool> placed(part.n_owned);
+  const auto append = [&](Index c) {
+    if (!placed[c]) cells.push_back(c);
+    placed[c] = true;
+  };
+  for (const Index c : plain)
+    for (const FileSide& side : part.cells[c].sides)
+      if (side.patch >= 0 && sliding[side.patch]) append(c);
+  for (size_t i = 0; i < cells.size(); ++i) {
+    std::vector<Index> neighbours;
+    for (const FileSide& side : part.cells[cells[i]].sides)
+      if (side.neighbour >= 0 && side.neighbour < part.n_owned) neighbours.push_back(side.neighbour);
+    std::sort(neighbours.begin(), neighbours.end(), [&](Index a, Index b) { return place[a] < place[b]; });
+    for (const Index c : neighbours) append(c);
+  }
+  for (const Index c : plain) append(c);
+  std::stable_sort(cells.begin(), cells.end(), [&](Index a, Index b) { return part.cells[a].zone < part.cells[b].zone; });
   return cells;
 }
 
@@ -114,12 +96,12 @@ SfHandle halo_of(const MeshPart& part, const Numbering& numbering, MPI_Comm comm
 
 }  // namespace
 
-Numbering number_cells(const MeshPart& part, MPI_Comm comm, Index largest_piece) {
+Numbering number_cells(const MeshPart& part, const std::vector<bool>& sliding, MPI_Comm comm) {
   Numbering numbering;
   const PetscInt n_owned = part.n_owned;
   MPI_Scan(&n_owned, &numbering.first_global, 1, MPIU_INT, MPI_SUM, comm);
   numbering.first_global -= n_owned;
-  numbering.cell = order_owned(part, largest_piece);
+  numbering.cell = order_owned(part, sliding);
   const std::vector<PetscInt> global = global_numbers(part, numbering, comm);
 
   const auto by_global = [&](Index a, Index b) { return global[a] < global[b]; };

@@ -14,8 +14,8 @@ struct Numbering {
   SfHandle halo;  ///< as in Mesh
 };
 
-/// Collective. Owned cells by zone, zones of more than `largest_piece` cells in pieces (decisions.md), within a piece by
-/// reverse Cuthill-McKee; halo cells by their global numbers.
-Numbering number_cells(const MeshPart& part, MPI_Comm comm, Index largest_piece = 100000);
+/// Collective. Owned cells by zone, within a zone outwards from its sliding interfaces, level by level of face neighbours, or
+/// by reverse Cuthill-McKee where it has none; halo cells by their global numbers. `sliding`: whether each patch is one.
+Numbering number_cells(const MeshPart& part, const std::vector<bool>& sliding, MPI_Comm comm);
 
 }  // namespace windhover::mesh

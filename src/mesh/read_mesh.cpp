@@ -114,7 +114,9 @@ Mesh build_mesh(const std::string& file, double scale, MPI_Comm comm, const std:
   share_lists(whole, mesh);
   const MeshPart part = distribute(whole, sliding, comm);
   whole = {};  // gives its memory back
-  Numbering numbering = number_cells(part, comm);
+  std::vector<bool> slides;
+  for (const Patch& patch : mesh.patches) slides.push_back(sliding.contains(patch.name));
+  Numbering numbering = number_cells(part, slides, comm);
   mesh.n_owned = part.n_owned;
   mesh.n_gradient = part.n_gradient;
   mesh.n_cells = static_cast<Index>(part.cells.size());

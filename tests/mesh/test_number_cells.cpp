@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <numeric>
+#include <utility>
 
 #include "mesh/number_cells.h"
 #include "mesh_fixture.h"
@@ -10,53 +10,55 @@ using namespace windhover::mesh;
 
 namespace {
 
-MeshPart own_part(const std::string& file) {
-  const FileMesh whole = read_gmsh(file, 1);
-  return distribute(whole, {}, PETSC_COMM_SELF);
+/// Owned cells of a mesh on one rank, in their order; slides(patch): whether it is a sliding interface.
+template <class Slides>
+std::vector<Index> order(const FileMesh& whole, const MeshPart& part, Slides slides) {
+  std::vector<bool> sliding;
+  for (const PatchName& patch : whole.patches) sliding.push_back(slides(patch));
+  const Numbering numbering = number_cells(part, sliding, PETSC_COMM_SELF);
+  return {numbering.cell.begin(), numbering.cell.begin() + part.n_owned};
 }
 
-Vec3 centre(const FileCell& cell) {
-  Vec3 sum = Vec3::Zero();
-  const int n = static_cast<int>(cell.type);
-  for (int k = 0; k < n; ++k) sum += cell.corners[k].position;
-  return sum / n;
-}
-
-/// The owned cells of each zone in their order, and that zones follow each other and no cell is left out.
-std::vector<std::vector<Vec3>> centres_by_zone(const MeshPart& part, const Numbering& numbering) {
-  std::vector<Index> sorted(numbering.cell.begin(), numbering.cell.begin() + part.n_owned), all(part.n_owned);
-  std::sort(sorted.begin(), sorted.end());
-  std::iota(all.begin(), all.end(), 0);
-  REQUIRE(sorted == all);
-  std::vector<std::vector<Vec3>> zones;
-  for (Index i = 0; i < part.n_owned; ++i) {
-    const FileCell& cell = part.cells[numbering.cell[i]];
-    REQUIRE(cell.zone + 1 >= static_cast<int>(zones.size()));
-    zones.resize(cell.zone + 1);
-    zones.back().push_back(centre(cell));
-  }
-  return zones;
+/// By how many faces each cell is away from those at an interface.
+std::vector<int> levels(const FileMesh& whole, const MeshPart& part, const std::string& interface_name) {
+  constexpr int kFar = 1 << 30;
+  std::vector<int> level(part.n_owned, kFar);
+  for (Index c = 0; c < part.n_owned; ++c)
+    for (const FileSide& side : part.cells[c].sides)
+      if (side.patch >= 0 && whole.patches[side.patch].name == interface_name) level[c] = 0;
+  for (bool changed = true; std::exchange(changed, false);)
+    for (Index c = 0; c < part.n_owned; ++c)
+      for (const FileSide& side : part.cells[c].sides)
+        if (side.neighbour >= 0 && level[side.neighbour] < kFar && level[side.neighbour] + 1 < level[c]) {
+          level[c] = level[side.neighbour] + 1;
+          changed = true;
+        }
+  return level;
 }
 
 }  // namespace
 
-TEST_CASE("large zones are ordered in pieces that a plane separates") {
-  const MeshPart part = own_part(make_mesh("two_zones", {{"gap", 1}}));
-  const auto whole = centres_by_zone(part, number_cells(part, PETSC_COMM_SELF));
-  REQUIRE(whole.size() == 2);
-  const auto largest = static_cast<Index>(std::min(whole[0].size(), whole[1].size()) - 1);
-  const auto pieces = centres_by_zone(part, number_cells(part, PETSC_COMM_SELF, largest));
-  for (size_t zone = 0; zone < 2; ++zone) {
-    const auto separated = [](const std::vector<Vec3>& cells) {
-      const auto half = cells.begin() + static_cast<std::ptrdiff_t>(cells.size() / 2);
-      for (int d = 0; d < 3; ++d) {
-        const auto less = [d](const Vec3& a, const Vec3& b) { return a[d] < b[d]; };
-        if ((*std::max_element(cells.begin(), half, less))[d] <= (*std::min_element(half, cells.end(), less))[d])
-          return true;
-      }
-      return false;
-    };
-    CHECK(separated(pieces[zone]));
-    CHECK_FALSE(separated(whole[zone]));
+TEST_CASE("cells are ordered by zone, in a zone from its sliding interface on") {
+  const FileMesh whole = read_gmsh(make_mesh("two_zones", {{"gap", 1}}), 1);
+  const MeshPart part = distribute(whole, {}, PETSC_COMM_SELF);
+  REQUIRE(whole.zones.size() == 2);
+  const auto at = std::find_if(whole.patches.begin(), whole.patches.end(),
+                               [](const PatchName& patch) { return patch.zone == 1; });
+  REQUIRE(at != whole.patches.end());
+  const std::string name = at->name;
+  const std::vector<int> level = levels(whole, part, name);
+  const auto plain = order(whole, part, [](const PatchName&) { return false; });
+  const auto cells = order(whole, part, [&](const PatchName& patch) { return patch.name == name; });
+  for (const auto& list : {plain, cells}) {
+    REQUIRE(std::is_permutation(list.begin(), list.end(), plain.begin()));
+    CHECK(std::is_sorted(list.begin(), list.end(), [&](Index a, Index b) { return part.cells[a].zone < part.cells[b].zone; }));
   }
+  const auto second = [&](const std::vector<Index>& list) {
+    return std::find_if(list.begin(), list.end(), [&](Index c) { return part.cells[c].zone == 1; });
+  };
+  const auto nearer = [&](Index a, Index b) { return level[a] < level[b]; };
+  CHECK(std::is_sorted(second(cells), cells.end(), nearer));
+  CHECK(level[*second(cells)] == 0);
+  CHECK_FALSE(std::is_sorted(second(plain), plain.end(), nearer));
+  CHECK(std::equal(cells.begin(), second(cells), plain.begin()));  // a zone without one: reverse Cuthill-McKee
 }
