@@ -6,14 +6,19 @@
 namespace windhover::mesh {
 namespace {
 
+template <class Visit>
+void for_each_own_neighbour(const MeshPart& part, Index cell, Visit visit) {
+  for (const FileSide& side : part.cells[cell].sides)
+    if (side.neighbour >= 0 && side.neighbour < part.n_owned) visit(side.neighbour);
+}
+
 /// Owned cells by reverse Cuthill-McKee.
 std::vector<Index> reverse_cuthill_mckee(const MeshPart& part) {
   std::vector<PetscInt> start{0}, columns;
   for (Index c = 0; c < part.n_owned; ++c) {
     const auto first = static_cast<std::ptrdiff_t>(columns.size());
     columns.push_back(c);
-    for (const FileSide& side : part.cells[c].sides)
-      if (side.neighbour >= 0 && side.neighbour < part.n_owned) columns.push_back(side.neighbour);
+    for_each_own_neighbour(part, c, [&](Index neighbour) { columns.push_back(neighbour); });
     std::sort(columns.begin() + first, columns.end());
     start.push_back(static_cast<PetscInt>(columns.size()));
   }
@@ -44,10 +49,10 @@ std::vector<Index> order_owned(const MeshPart& part, const std::vector<bool>& sl
   for (const Index c : plain)
     for (const FileSide& side : part.cells[c].sides)
       if (side.patch >= 0 && sliding[side.patch]) append(c);
+  std::vector<Index> neighbours;
   for (size_t i = 0; i < cells.size(); ++i) {
-    std::vector<Index> neighbours;
-    for (const FileSide& side : part.cells[cells[i]].sides)
-      if (side.neighbour >= 0 && side.neighbour < part.n_owned) neighbours.push_back(side.neighbour);
+    neighbours.clear();
+    for_each_own_neighbour(part, cells[i], [&](Index neighbour) { neighbours.push_back(neighbour); });
     std::sort(neighbours.begin(), neighbours.end(), [&](Index a, Index b) { return place[a] < place[b]; });
     for (const Index c : neighbours) append(c);
   }
