@@ -18,42 +18,39 @@ constexpr int kSize = 5, kEntries = kSize * kSize, kPadded = 8;
 
 void store(const Column& c, float* p) { std::memcpy(p, &c, sizeof c); }
 
-/// The upper halves of floats, 25 of a block: two columns side by side, row by row, two more, and the last. So one load and
-/// a shift or mask give each of a pair, where the halves of one column alone would have to be spread over a register.
-using Bfloat16 = std::uint16_t;
-typedef std::uint32_t Pairs __attribute__((vector_size(32)));
+typedef std::int32_t Words __attribute__((vector_size(32)));
 
-constexpr int kPair = 2 * kSize;  ///< numbers in a pair of columns
+/// The words of a block as its columns over its scale.
+class Columns {
+ public:
+  explicit Columns(const BlockIlu::Block& block) : words_(std::bit_cast<Words>(block)) {}
+  template <int k>
+  Column at() const {
+    if constexpr (k < 4)
+      return __builtin_convertvector(words_ << 8 * (3 - k), Column);
+    else
+      return __builtin_convertvector(
+          __builtin_shufflevector(words_, words_, 5, 5, 5, 5, 6, 6, 6, 6) << Words{24, 16, 8, 0, 24, 16, 8, 0}, Column);
+  }
 
-Pairs load_pairs(const Bfloat16* p) {
-  Pairs x;
-  std::memcpy(&x, p, sizeof x);
-  return x;
-}
-Column first_of(const Pairs& x) { return std::bit_cast<Column>(x << 16); }
-Column second_of(const Pairs& x) { return std::bit_cast<Column>(x & 0xffff0000u); }
-Column last_column(const Bfloat16* block) {
-  typedef Bfloat16 Halves __attribute__((vector_size(16)));
-  Halves halves;
-  std::memcpy(&halves, block + 2 * kPair, sizeof halves);
-  return std::bit_cast<Column>(__builtin_convertvector(halves, Pairs) << 16);
-}
+ private:
+  Words words_;
+};
 
 /// block · x
-Column times(const Bfloat16* block, const float* x) {
-  const Pairs left = load_pairs(block), right = load_pairs(block + kPair);
-  Column sum = first_of(left) * x[0];
-  sum += second_of(left) * x[1];
-  sum += first_of(right) * x[2];
-  sum += second_of(right) * x[3];
-  sum += last_column(block) * x[4];
-  return sum;
+Column times(const BlockIlu::Block& block, const float* x) {
+  const Columns columns(block);
+  Column sum = columns.at<0>() * x[0];
+  sum += columns.at<1>() * x[1];
+  sum += columns.at<2>() * x[2];
+  sum += columns.at<3>() * x[3];
+  sum += columns.at<4>() * x[4];
+  return sum * block.scale;
 }
 
-/// Blocks, and room for what is read after the last.
-std::unique_ptr<Bfloat16[]> allocate_blocks(size_t count) {
-  auto blocks = std::make_unique<Bfloat16[]>(count * kEntries + kPadded);
-  use_large_pages(blocks.get(), count * kEntries * sizeof(Bfloat16));
+std::unique_ptr<BlockIlu::Block[]> allocate_blocks(size_t count) {
+  auto blocks = std::make_unique<BlockIlu::Block[]>(count);
+  use_large_pages(blocks.get(), count * sizeof(BlockIlu::Block));
   return blocks;
 }
 
@@ -75,23 +72,52 @@ Column rounded(const double* column) {
   return __builtin_convertvector(wide, Column);
 }
 
-/// To nearest; what is not finite does not count, the pivots tell.
-void pack(const Padded& from, Bfloat16* to) {
-  Pairs rounded[kSize];
-  for (int k = 0; k < kSize; ++k) {
-    const Pairs bits = std::bit_cast<Pairs>(from.column[k]);
-    rounded[k] = (bits + 0x7fff + (bits >> 16 & 1)) >> 16;
-  }
-  for (int k = 0; k < 2; ++k) {
-    const Pairs pairs = rounded[2 * k] | rounded[2 * k + 1] << 16;
-    std::memcpy(to + kPair * k, &pairs, kPair * sizeof(Bfloat16));
-  }
-  for (int i = 0; i < kSize; ++i) to[2 * kPair + i] = static_cast<Bfloat16>(rounded[kSize - 1][i]);
+/// Puts a byte above the k bytes of each word, so that the word over 2^8k is as near to `wanted` as it can be.
+void put_byte(const Column& wanted, int k, Words& words) {
+  constexpr float kUp = 128.5;  // conversion cuts off what is behind the point
+  const Column rest = wanted - __builtin_convertvector(words, Column) / static_cast<float>(1 << 8 * k);
+  words |= ((__builtin_convertvector(rest + kUp, Words) - static_cast<int>(kUp)) & 0xff) << 8 * k;
 }
 
-Padded unpack(const Bfloat16* block) {
-  const Pairs left = load_pairs(block), right = load_pairs(block + kPair);
-  return {first_of(left), second_of(left), first_of(right), second_of(right), last_column(block)};
+float largest_entry(const Padded& block) {
+  float largest = 0;
+  for (const Column& c : block.column)
+    for (int i = 0; i < kSize; ++i) largest = std::max(largest, std::abs(c[i]));
+  return largest;
+}
+
+/// To nearest; what is not finite does not count, the pivots tell.
+BlockIlu::Block packed(const Padded& from) {
+  constexpr float kMost = 127, kLeast = 1e-30f;
+  const float largest = largest_entry(from);
+  if (!(largest > kLeast && std::isfinite(largest))) return {};
+  const float over = kMost / largest;
+  Words words{}, last{};
+  for (int k = 0; k < 4; ++k) {
+    put_byte(from.column[k] * over, k, words);
+    // the last column's rows, one byte of the same word after the other
+    put_byte(Column{} + from.column[4][k] * over, k, last);
+  }
+  words[5] = last[0];
+  last = Words{};
+  put_byte(from.column[4] * over, 0, last);
+  words[6] = last[4];
+  BlockIlu::Block block = std::bit_cast<BlockIlu::Block>(words);
+  block.scale = largest / kMost / (1 << 24);
+  return block;
+}
+
+Padded unpacked(const BlockIlu::Block& block) {
+  const Columns columns(block);
+  const float scale = block.scale;
+  return {columns.at<0>() * scale, columns.at<1>() * scale, columns.at<2>() * scale, columns.at<3>() * scale,
+          columns.at<4>() * scale};
+}
+
+Padded load(const float* block) {
+  Padded p;
+  for (int k = 0; k < kSize; ++k) p.column[k] = load_column(block + kSize * k);
+  return p;
 }
 
 /// factor · block
@@ -115,6 +141,22 @@ bool invert(const Padded& block, Padded& to) {
   petsc(PetscKernel_A_gets_inverse_A_5(inverse, pivots, work, 0, PETSC_TRUE, &singular));
   for (int j = 0; j < kSize; ++j) to.column[j] = rounded(&inverse[kSize * j]);
   return !singular && std::all_of(inverse, inverse + kEntries, [](double x) { return std::isfinite(x); });
+}
+
+/// The fifth of five numbers times a factor.
+Column with_last_times(const Column& c, float factor) { return c * Column{1, 1, 1, 1, factor, 1, 1, 1}; }
+
+/// What to measure the fifth variable in, that it acts on the three before it as they on it: bytes hold numbers of one size.
+float unit_of_last(std::span<const double* const> blocks) {
+  constexpr int kLast = kSize - 1;
+  double on_last = 0, by_last = 0;
+  for (const double* b : blocks)
+    for (int k = 1; k < kLast; ++k) {
+      on_last += std::abs(b[kSize * k + kLast]);
+      by_last += std::abs(b[kSize * kLast + k]);
+    }
+  const double unit = std::sqrt(on_last / by_last);
+  return std::isfinite(unit) && unit > 0 ? static_cast<float>(unit) : 1;
 }
 
 /// Fill of a row while its pattern is found: a sorted chain of columns, each with its level.
@@ -155,7 +197,8 @@ BlockIlu::BlockIlu(int n, const int* start, const int* column, int levels, Rows 
   find_pattern(start, column, levels);
   lower_.allocate();
   upper_.allocate();
-  pivot_ = allocate_blocks(n);
+  pivot_.resize(static_cast<size_t>(n) * kEntries + kPadded);
+  use_large_pages(pivot_);
   work_.resize(static_cast<size_t>(n) * kPadded);
 }
 
@@ -190,6 +233,7 @@ bool BlockIlu::factor(std::span<const double* const> blocks) {
   std::vector<Padded> row;         // of the pattern: lower part, diagonal, upper part
   std::vector<int> place(n_, -1);  // of a column in it
   bool regular = true;
+  unit_ = unit_of_last(blocks);
   for (int i = 0; i < n_; ++i) {
     const size_t below = lower_.start[i], above = upper_.start[i];
     const int n_below = static_cast<int>(lower_.start[i + 1] - below),
@@ -199,21 +243,23 @@ bool BlockIlu::factor(std::span<const double* const> blocks) {
     place[i] = n_below;
     for (int j = 0; j < n_above; ++j) place[upper_.column[above + j]] = n_below + 1 + j;
     for (int at = given_start_[i]; at < given_start_[i + 1]; ++at)
-      for (int c = 0; c < kSize; ++c) row[place[given_column_[at]]].column[c] = rounded(blocks[at] + kSize * c);
+      for (int c = 0; c < kSize; ++c)
+        row[place[given_column_[at]]].column[c] =
+            with_last_times(rounded(blocks[at] + kSize * c), 1 / unit_) * (c + 1 < kSize ? 1 : unit_);
     for (int j = 0; j < n_below; ++j) {
       const int k = lower_.column[below + j];
-      pack(product(row[j], unpack(&pivot_[size_t(k) * kEntries])), &lower_.block[(below + j) * kEntries]);
+      lower_.block[below + j] = packed(product(row[j], load(&pivot_[size_t(k) * kEntries])));
       for (size_t at = upper_.start[k]; at < upper_.start[k + 1]; ++at) {
         const int to = place[upper_.column[at]];
         if (to < 0) continue;  // fill of a higher level
-        const Padded update = product(row[j], unpack(&upper_.block[at * kEntries]));
+        const Padded update = product(row[j], unpacked(upper_.block[at]));
         for (int c = 0; c < kSize; ++c) row[to].column[c] -= update.column[c];
       }
     }
     Padded pivot;
     regular = invert(row[n_below], pivot) && regular;
-    pack(pivot, &pivot_[size_t(i) * kEntries]);
-    for (int j = 0; j < n_above; ++j) pack(product(pivot, row[n_below + 1 + j]), &upper_.block[(above + j) * kEntries]);
+    for (int c = 0; c < kSize; ++c) store(pivot.column[c], &pivot_[size_t(i) * kEntries + kSize * c]);
+    for (int j = 0; j < n_above; ++j) upper_.block[above + j] = packed(product(pivot, row[n_below + 1 + j]));
     for (int j = 0; j < n_below; ++j) place[lower_.column[below + j]] = -1;
     place[i] = -1;
     for (int j = 0; j < n_above; ++j) place[upper_.column[above + j]] = -1;
@@ -227,18 +273,19 @@ constexpr int kAhead = 2048;  // bytes: rows are too short for the processor to 
 
 /// The block, with memory so many bytes from it asked for.
 template <int bytes>
-const Bfloat16* ahead(const Bfloat16* block) {
-  __builtin_prefetch(reinterpret_cast<const char*>(block) + bytes);
+const BlockIlu::Block& ahead(const BlockIlu::Block& block) {
+  __builtin_prefetch(reinterpret_cast<const char*>(&block) + bytes);
   return block;
 }
 
 }  // namespace
 
 void BlockIlu::solve(const double* b, double* x, const ChangedRows& changed) {
+  const float over_unit = 1 / unit_;
   const auto substitute = [&](int i, const double* right) {
-    Column sum = rounded(right);
+    Column sum = with_last_times(rounded(right), over_unit);
     for (size_t at = lower_.start[i]; at < lower_.start[i + 1]; ++at)
-      sum -= times(ahead<kAhead>(&lower_.block[at * kEntries]), &work_[size_t(lower_.column[at]) * kPadded]);
+      sum -= times(ahead<kAhead>(lower_.block[at]), &work_[size_t(lower_.column[at]) * kPadded]);
     store(sum, &work_[size_t(i) * kPadded]);
   };
   int row = 0;
@@ -255,7 +302,7 @@ void BlockIlu::solve(const double* b, double* x, const ChangedRows& changed) {
     float* y = &work_[size_t(i) * kPadded];
     Column sum = times(&pivot_[size_t(i) * kEntries], y);
     for (size_t at = upper_.start[i + 1]; at-- > upper_.start[i];)
-      sum -= times(ahead<-kAhead>(&upper_.block[at * kEntries]), &work_[size_t(upper_.column[at]) * kPadded]);
+      sum -= times(ahead<-kAhead>(upper_.block[at]), &work_[size_t(upper_.column[at]) * kPadded]);
     store(sum, y);
     return y;
   };
@@ -263,15 +310,17 @@ void BlockIlu::solve(const double* b, double* x, const ChangedRows& changed) {
   while (i > rows_.first + rows_.count) substitute_back(--i);
   while (i > rows_.first) {
     const float* y = substitute_back(--i);
-    std::copy_n(y, kSize, x + size_t(i - rows_.first) * kSize);
+    double* to = x + size_t(i - rows_.first) * kSize;
+    std::copy_n(y, kSize - 1, to);
+    to[kSize - 1] = y[kSize - 1] * unit_;
   }
   while (i > 0) substitute_back(--i);
 }
 
 void BlockIlu::solve_row(int row, const double* b, float* x) const {
   float y[kPadded];
-  store(rounded(b), y);
-  store(times(&pivot_[size_t(row) * kEntries], y), y);
+  store(with_last_times(rounded(b), 1 / unit_), y);
+  store(with_last_times(times(&pivot_[size_t(row) * kEntries], y), unit_), y);
   std::copy_n(y, kSize, x);
 }
 

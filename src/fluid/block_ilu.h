@@ -1,4 +1,4 @@
-// Incomplete LU factors of a matrix of 5x5 blocks, kept in bfloat16 and applied in single precision: what fill they leave out
+// Incomplete LU factors of a matrix of 5x5 blocks, kept in bytes and applied in single precision: what fill they leave out
 // is worth more than the digits.
 #pragma once
 #include <cstdint>
@@ -19,6 +19,13 @@ class BlockIlu {
   struct Rows {
     int first, count;
   };
+  /// 25 signed bytes and what they are to be multiplied with. Word i < 5: row i of the first four columns, the first in the
+  /// lowest byte; words 5 and 6: the last column. A byte is read with those below it in its word, as digits behind the
+  /// point, and was rounded with them.
+  struct alignas(32) Block {
+    std::uint32_t word[7];
+    float scale;
+  };
   /// Pattern of n block rows: columns column[start[i]] to column[start[i + 1] - 1] in ascending order, the diagonal
   /// among them. `levels` of fill: Saad, Iterative Methods for Sparse Linear Systems, 2nd ed., section 10.3.3.
   BlockIlu(int n, const int* start, const int* column, int levels) : BlockIlu(n, start, column, levels, {0, n}) {}
@@ -37,7 +44,7 @@ class BlockIlu {
   struct Triangle {
     std::vector<size_t> start{0};
     std::vector<int> column;
-    std::unique_ptr<std::uint16_t[]> block;  ///< the upper halves of floats, two columns side by side
+    std::unique_ptr<Block[]> block;
     void allocate();
   };
   void find_pattern(const int* start, const int* column, int levels);
@@ -46,7 +53,8 @@ class BlockIlu {
   Rows rows_;  ///< of right sides and solutions
   std::vector<int> given_start_, given_column_;
   Triangle lower_, upper_;                  ///< L and D⁻¹U, without their unit diagonals
-  std::unique_ptr<std::uint16_t[]> pivot_;  ///< D⁻¹, inverses of U's diagonal blocks
+  std::vector<float> pivot_;                ///< D⁻¹, inverses of U's diagonal blocks, by columns
+  float unit_ = 1;                          ///< of the fifth variable
   std::vector<float> work_;                 ///< eight numbers a row, of which five count
 };
 

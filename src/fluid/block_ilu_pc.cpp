@@ -112,7 +112,7 @@ PetscErrorCode destroy_ilu(PC pc) {
 
 void set_up_block_ilu(PC pc, int levels, InterfaceCoupling* coupling) {
   petsc(PCSetType(pc, PCSHELL));
-  petsc(PCShellSetName(pc, "block ILU in bfloat16"));
+  petsc(PCShellSetName(pc, "block ILU in bytes"));
   petsc(PCShellSetContext(pc, new LateIlu{levels, coupling, {}}));
   petsc(PCShellSetSetUp(pc, factor_ilu));
   petsc(PCShellSetApply(pc, apply_ilu));

@@ -7,7 +7,7 @@ namespace windhover::fluid {
 class InterfaceCoupling;
 
 /// Incomplete factors M of this rank's own part of a BAIJ matrix and one layer of other ranks' rows (OverlappingRows), in
-/// bfloat16 (BlockIlu). With a coupling C (or null) they are applied as M⁻¹ (1 − C B⁻¹ (1 − C D⁻¹)), B⁻¹ and D⁻¹ cheap guesses
+/// bytes (BlockIlu). With a coupling C (or null) they are applied as M⁻¹ (1 − C B⁻¹ (1 − C D⁻¹)), B⁻¹ and D⁻¹ cheap guesses
 /// of M⁻¹ near interfaces (InterfaceBand).
 void set_up_block_ilu(PC pc, int levels, InterfaceCoupling* coupling);
 

@@ -92,7 +92,7 @@ double difference(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-TEST_CASE("Incomplete factors are PETSc's, to the digits of bfloat16") {
+TEST_CASE("Incomplete factors are PETSc's, to the digits of bytes") {
   constexpr double kRounding = 1.0 / 512;
   const RandomMatrix matrix(3);
   std::vector<double> b(5 * kRows), x(b.size());
