@@ -235,6 +235,12 @@ PackOf<Number> rounded_to(const Pack& a) {
     });
 }
 
+template <class Number>
+  requires std::is_same_v<Number, float>
+PackOf<float> rounded_to(const PackOf<float>& a) {
+  return a;
+}
+
 inline Pack widened(const Pack& a) { return a; }
 inline Pack widened(const PackOf<float>& a) {
   constexpr std::make_integer_sequence<int, Pack::kWidth> lanes;

@@ -46,6 +46,7 @@ class Handle {
 
 using VecHandle = Handle<Vec, VecDestroy>;
 using MatHandle = Handle<Mat, MatDestroy>;
+using KspHandle = Handle<KSP, KSPDestroy>;
 using SnesHandle = Handle<SNES, SNESDestroy>;
 using SfHandle = Handle<PetscSF, PetscSFDestroy>;
 using IsHandle = Handle<IS, ISDestroy>;

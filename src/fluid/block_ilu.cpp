@@ -86,6 +86,12 @@ float largest_entry(const Padded& block) {
   return largest;
 }
 
+Column load_five(const float* p) {
+  Column c = {};
+  std::memcpy(&c, p, kSize * sizeof(float));
+  return c;
+}
+
 /// To nearest; what is not finite does not count, the pivots tell.
 BlockIlu::Block packed(const Padded& from) {
   constexpr float kMost = 127, kLeast = 1e-30f;
@@ -280,10 +286,10 @@ const BlockIlu::Block& ahead(const BlockIlu::Block& block) {
 
 }  // namespace
 
-void BlockIlu::solve(const double* b, double* x, const ChangedRows& changed) {
+void BlockIlu::solve(const float* b, float* x, const ChangedRows& changed) {
   const float over_unit = 1 / unit_;
-  const auto substitute = [&](int i, const double* right) {
-    Column sum = with_last_times(rounded(right), over_unit);
+  const auto substitute = [&](int i, const float* right) {
+    Column sum = with_last_times(load_five(right), over_unit);
     for (size_t at = lower_.start[i]; at < lower_.start[i + 1]; ++at)
       sum -= times(ahead<kAhead>(lower_.block[at]), &work_[size_t(lower_.column[at]) * kPadded]);
     store(sum, &work_[size_t(i) * kPadded]);
@@ -310,16 +316,16 @@ void BlockIlu::solve(const double* b, double* x, const ChangedRows& changed) {
   while (i > rows_.first + rows_.count) substitute_back(--i);
   while (i > rows_.first) {
     const float* y = substitute_back(--i);
-    double* to = x + size_t(i - rows_.first) * kSize;
+    float* to = x + size_t(i - rows_.first) * kSize;
     std::copy_n(y, kSize - 1, to);
     to[kSize - 1] = y[kSize - 1] * unit_;
   }
   while (i > 0) substitute_back(--i);
 }
 
-void BlockIlu::solve_row(int row, const double* b, float* x) const {
+void BlockIlu::solve_row(int row, const float* b, float* x) const {
   float y[kPadded];
-  store(with_last_times(rounded(b), 1 / unit_), y);
+  store(with_last_times(load_five(b), 1 / unit_), y);
   store(with_last_times(times(&pivot_[size_t(row) * kEntries], y), unit_), y);
   std::copy_n(y, kSize, x);
 }

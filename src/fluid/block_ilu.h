@@ -11,7 +11,7 @@ namespace windhover::fluid {
 /// Rows of a right side that are not as given, or not given, ascending, and the five values of each.
 struct ChangedRows {
   std::span<const int> rows;
-  const double* values = nullptr;
+  const float* values = nullptr;
 };
 
 class BlockIlu {
@@ -35,9 +35,9 @@ class BlockIlu {
   /// Where the blocks are, each by columns, in the order of the pattern. False: some pivot cannot be inverted.
   bool factor(std::span<const double* const> blocks);
   /// x = U⁻¹ L⁻¹ b, five values a row, with `changed` in place of some.
-  void solve(const double* b, double* x, const ChangedRows& changed = {});
+  void solve(const float* b, float* x, const ChangedRows& changed = {});
   /// x = U⁻¹ b of one row alone.
-  void solve_row(int row, const double* b, float* x) const;
+  void solve_row(int row, const float* b, float* x) const;
 
  private:
   /// Rows of blocks on one side of the diagonal.

@@ -20,18 +20,20 @@ class OverlappingIlu {
 
   bool factor();
   /// x = what the factors make of b, own rows of both. Collective.
+  void solve(const float* b, float* x);
   void solve(const double* b, double* x);
 
  private:
-  typedef std::array<double, kVariables> Five;
+  typedef std::array<float, kVariables> Five;
 
   Mat inside_;  ///< own rows and columns of the matrix
   OverlappingRows rows_;
   BlockIlu factors_;
   std::optional<InterfaceBand> band_;
   std::vector<int> changed_rows_;  ///< other ranks' rows and own ones at interfaces
-  std::vector<double> changed_;    ///< their right sides
+  std::vector<float> changed_;     ///< their right sides
   mesh::RemoteRows others_;        ///< from other ranks' right sides to changed_
+  std::vector<float> rounded_;     ///< what is solved in place of doubles
 };
 
 OverlappingIlu::OverlappingIlu(Mat matrix, int levels, InterfaceCoupling* coupling)
@@ -61,12 +63,18 @@ bool OverlappingIlu::factor() {
   return regular && band_regular;
 }
 
-void OverlappingIlu::solve(const double* b, double* x) {
+void OverlappingIlu::solve(const float* b, float* x) {
   const auto others = reinterpret_cast<Five*>(changed_.data());
   others_.begin(reinterpret_cast<const Five*>(b), others);
   if (band_) band_->right_side(b, changed_.data() + kVariables * rows_.before());
   others_.end(others);
   factors_.solve(b, x, {changed_rows_, changed_.data()});
+}
+
+void OverlappingIlu::solve(const double* b, double* x) {
+  rounded_.assign(b, b + kVariables * rows_.own());
+  solve(rounded_.data(), rounded_.data());
+  std::copy(rounded_.begin(), rounded_.end(), x);
 }
 
 /// The pattern is known when the matrix has its first values.
@@ -88,7 +96,9 @@ PetscErrorCode factor_ilu(PC pc) {
     Mat matrix = nullptr;
     petsc(PCGetOperators(pc, nullptr, &matrix));
     if (!late.ilu) late.ilu.emplace(matrix, late.levels, late.coupling);
-    petsc(PCSetFailedReason(pc, late.ilu->factor() ? PC_NOERROR : PC_FACTOR_NUMERIC_ZEROPIVOT));
+    int regular = late.ilu->factor();
+    MPI_Allreduce(MPI_IN_PLACE, &regular, 1, MPI_INT, MPI_MIN, PetscObjectComm(reinterpret_cast<PetscObject>(pc)));
+    petsc(PCSetFailedReason(pc, regular ? PC_NOERROR : PC_FACTOR_NUMERIC_ZEROPIVOT));
   });
 }
 
@@ -118,6 +128,8 @@ void set_up_block_ilu(PC pc, int levels, InterfaceCoupling* coupling) {
   petsc(PCShellSetApply(pc, apply_ilu));
   petsc(PCShellSetDestroy(pc, destroy_ilu));
 }
+
+void apply_block_ilu(PC pc, const float* b, float* x) { late_ilu(pc).ilu->solve(b, x); }
 
 void set_up_everywhere_lu(PC pc) {
   MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(pc));

@@ -10,6 +10,8 @@ class InterfaceCoupling;
 /// bytes (BlockIlu). With a coupling C (or null) they are applied as M⁻¹ (1 − C B⁻¹ (1 − C D⁻¹)), B⁻¹ and D⁻¹ cheap guesses
 /// of M⁻¹ near interfaces (InterfaceBand).
 void set_up_block_ilu(PC pc, int levels, InterfaceCoupling* coupling);
+/// x = M⁻¹ b, five floats per owned cell. Collective.
+void apply_block_ilu(PC pc, const float* b, float* x);
 
 /// UMFPACK, the whole problem on every rank. AIJ matrices.
 void set_up_everywhere_lu(PC pc);

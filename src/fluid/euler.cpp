@@ -91,31 +91,32 @@ FaceInput EulerOperator::face_input(const FrameState& frame) const {
 
 /// Leaves the rates at zero for the next sum, while they are in the cache. `turn` leads from the axes of x and out. `rate`:
 /// gets R alone.
-template <class Number>
-void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination, const ZoneTurn& turn, Vec rate) {
+template <class Number, class Scalar>
+void EulerOperator::store_rates(const Scalar* x, Scalar* out, const Combination& combination, const ZoneTurn& turn,
+                                double* rate) {
   RowOf<Number>* const rates = this->rates<Number>();
-  double *to = nullptr, *alone = nullptr;
-  const double *from = nullptr, *known = nullptr;
-  petsc(VecGetArrayWrite(out, &to));
-  petsc(VecGetArrayRead(x, &from));
+  const double* known = nullptr;
   if (combination.known) petsc(VecGetArrayRead(combination.known, &known));
-  if (rate) petsc(VecGetArrayWrite(rate, &alone));
   Pack axes[3] = {0.0, 0.0, 0.0};  // columns of the zone's matrix, where the momentum is
   alignas(64) constexpr double scalars[8] = {1, 0, 0, 0, 1};
   const auto combine = [&](mesh::Index c, auto columns) {
+    const auto load = [=]<class S>(const S* from) {
+      PackOf<S> five(0.0);
+      std::memcpy(&five, from + kVariables * c, columns * sizeof(S));
+      return widened(five);
+    };
+    const auto store = [=]<class S>(const Pack& from, S* to) {
+      const PackOf<S> five = rounded_to<S>(from);
+      std::memcpy(to + kVariables * c, &five, columns * sizeof(S));
+    };
     const Pack own = widened(PackOf<Number>::load(rates[c].v));
-    if (alone) std::memcpy(alone + kVariables * c, &own, columns * sizeof(double));
+    if (rate) store(own, rate);
     Pack sum = combination.rate * own;
     if (!turn.none()) sum = Pack::load(scalars) * sum + axes[0] * sum[1] + axes[1] * sum[2] + axes[2] * sum[3];
     PackOf<Number>(0.0).store(rates[c].v);
-    Pack term(0.0);
-    std::memcpy(&term, from + kVariables * c, columns * sizeof(double));
-    sum += combination.mass * mesh_.volume[c] * term;
-    if (known) {
-      std::memcpy(&term, known + kVariables * c, columns * sizeof(double));
-      sum += term;
-    }
-    std::memcpy(to + kVariables * c, &sum, columns * sizeof(double));
+    sum += combination.mass * mesh_.volume[c] * load(x);
+    if (known) sum += load(known);
+    store(sum, out);
   };
   // whole registers spill over the next cell, which comes after; the last cell must not
   const mesh::Index safe = std::max<mesh::Index>(0, mesh_.n_owned - 1);
@@ -128,10 +129,7 @@ void EulerOperator::store_rates(Vec x, Vec out, const Combination& combination, 
       combine(c, std::integral_constant<int, kVariables>());
   }
   std::fill(rates + mesh_.n_owned, rates + rates_.size(), RowOf<Number>{});
-  if (rate) petsc(VecRestoreArrayWrite(rate, &alone));
   if (combination.known) petsc(VecRestoreArrayRead(combination.known, &known));
-  petsc(VecRestoreArrayRead(x, &from));
-  petsc(VecRestoreArrayWrite(out, &to));
 }
 
 bool EulerOperator::holds(Vec q, const Frames& frames) const {
@@ -179,7 +177,15 @@ void EulerOperator::residual(Vec q, const Frames& frames, Vec out, const Combina
   fill_cells(q, frames);
   const int r = static_cast<int>(model_.reconstruction);
   sum_rates(state_, frames, model_.flux->residual[r], kBoundaryKernels.residual[r]);
-  store_rates<double>(q, out, combination, {}, rate_);
+  const double* from = nullptr;
+  double *to = nullptr, *rate = nullptr;
+  petsc(VecGetArrayRead(q, &from));
+  petsc(VecGetArrayWrite(out, &to));
+  if (rate_) petsc(VecGetArrayWrite(rate_, &rate));
+  store_rates<double>(from, to, combination, {}, rate);
+  if (rate_) petsc(VecRestoreArrayWrite(rate_, &rate));
+  petsc(VecRestoreArrayWrite(out, &to));
+  petsc(VecRestoreArrayRead(q, &from));
   hold(q, frames);
   held_.rate = rate_;
 }
@@ -193,21 +199,39 @@ void EulerOperator::linearize(Vec q, const Frames& frames) {
   }
 }
 
-void EulerOperator::derivative(Vec dq, Vec out, const Combination& combination, const ZoneTurn& turn, bool single) {
+template <class Number, class Scalar>
+void EulerOperator::derivative_of(const Scalar* dq, Scalar* out, const Combination& combination, const ZoneTurn& turn) {
   const int r = static_cast<int>(model_.reconstruction);
-  const auto sum = [&]<class Number>(const CellFields<Number>& state, CellFields<Number>& along, const auto& interior,
-                                     const auto& boundary) {
+  const auto sum = [&](const CellFields<Number>& state, CellFields<Number>& along, const auto& interior,
+                       const auto& boundary) {
     if (along.cells.empty()) along.resize(state_.cells.size(), state_.gradients.size());
     fill_derivatives(dq, turn, state, along);
     sum_rates(along, held_.frames, interior[r], boundary[r]);
     store_rates<Number>(dq, out, combination, turn);
   };
-  if (single) {
+  if constexpr (std::is_same_v<Number, float>) {
     round_state();
     sum(state_single_, derivative_single_, model_.flux->derivative_single, kBoundaryKernels.derivative_single);
   } else {
     sum(state_, derivative_, model_.flux->derivative, kBoundaryKernels.derivative);
   }
+}
+
+void EulerOperator::derivative(Vec dq, Vec out, const Combination& combination, const ZoneTurn& turn, bool single) {
+  const double* from = nullptr;
+  double* to = nullptr;
+  petsc(VecGetArrayRead(dq, &from));
+  petsc(VecGetArrayWrite(out, &to));
+  if (single)
+    derivative_of<float>(from, to, combination, turn);
+  else
+    derivative_of<double>(from, to, combination, turn);
+  petsc(VecRestoreArrayWrite(out, &to));
+  petsc(VecRestoreArrayRead(dq, &from));
+}
+
+void EulerOperator::derivative(const float* dq, float* out, const Combination& combination, const ZoneTurn& turn) {
+  derivative_of<float>(dq, out, combination, turn);
 }
 
 }  // namespace windhover::fluid

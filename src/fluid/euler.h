@@ -108,6 +108,8 @@ class EulerOperator {
   /// out = (mass V + rate dR/dq) dq, exact (forward mode); dq and out in the axes from which `turn` leads to the state's.
   /// `single`: what passes through faces is made of floats, and so are its sums.
   void derivative(Vec dq, Vec out, const Combination& combination = {}, const ZoneTurn& turn = {}, bool single = false);
+  /// The same of floats all through; dq and out: five per owned cell.
+  void derivative(const float* dq, float* out, const Combination& combination, const ZoneTurn& turn);
 
   /// jacobian = scale · d(first-order residual)/dq + diagonal(mass_scale · volume). `damping`: a speed by which the
   /// dissipation of each wave between cells is more than the residual's.
@@ -143,8 +145,10 @@ class EulerOperator {
   template <class T>
   T mach_column(const State<T>& s, const PackFor<T> grid[3]) const;
   void fill_cells(Vec q, const Frames& frames);
-  template <class Number>
-  void fill_derivatives(Vec dq, const ZoneTurn& turn, const CellFields<Number>& state, CellFields<Number>& derivative);
+  template <class Number, class Scalar>
+  void fill_derivatives(const Scalar* dq, const ZoneTurn& turn, const CellFields<Number>& state, CellFields<Number>& derivative);
+  template <class Number, class Scalar>
+  void derivative_of(const Scalar* dq, Scalar* out, const Combination& combination, const ZoneTurn& turn);
   void round_state();
   bool holds(Vec q, const Frames& frames) const;
   void hold(Vec q, const Frames& frames);
@@ -200,8 +204,9 @@ class EulerOperator {
   template <class Number>
   void sum_rates(CellFields<Number>& fields, const Frames& frames, FluxKernels::Sum<Number> interior,
                  BoundaryKernels::Sum<Number> boundary);
-  template <class Number>
-  void store_rates(Vec x, Vec out, const Combination& combination, const ZoneTurn& turn = {}, Vec rate = nullptr);
+  template <class Number, class Scalar>
+  void store_rates(const Scalar* x, Scalar* out, const Combination& combination, const ZoneTurn& turn = {},
+                   double* rate = nullptr);
   void prepare(Vec q, const Frames& frames);
   /// Sums of doubles, or of floats in the same memory: they are never made at once, and zeros in between.
   template <class Number>

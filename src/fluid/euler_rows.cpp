@@ -13,24 +13,24 @@ namespace {
 
 /// Eight items of N numbers each, one after the other: those in the array, or a copy padded with zeros where fewer than
 /// eight or what load_columns() reads after them would lie beyond the array's end.
-template <int N>
+template <int N, class Scalar = double>
 struct Eight {
-  double copy[8 * N + 8];
-  const double* first;
+  Scalar copy[8 * N + 8];
+  const Scalar* first;
 
-  Eight(const double* data, mesh::Index left) : first(data) {
+  Eight(const Scalar* data, mesh::Index left) : first(data) {
     if (N * left >= 7 * N + 8) return;
-    std::fill(std::begin(copy), std::end(copy), 0.0);
+    std::fill(std::begin(copy), std::end(copy), Scalar{});
     std::copy_n(data, N * std::min<mesh::Index>(left, 8), copy);
     first = copy;
   }
 };
 
 /// Eight items of N numbers each as columns, of which the first N mean something.
-template <int N, class Number>
-inline void load_columns(const Eight<N>& items, PackOf<Number> columns[8]) {
+template <int N, class Number, class Scalar>
+inline void load_columns(const Eight<N, Scalar>& items, PackOf<Number> columns[8]) {
   PackOf<Number> rows[8];
-  for (int j = 0; j < 8; ++j) rows[j] = rounded_to<Number>(Pack::load_unaligned(items.first + N * j));
+  for (int j = 0; j < 8; ++j) rows[j] = rounded_to<Number>(PackOf<Scalar>::load_unaligned(items.first + N * j));
   transpose(rows, columns);
 }
 
@@ -107,7 +107,7 @@ void EulerOperator::fill_cells(Vec q, const Frames& frames) {
       const mesh::Index left = mesh_.n_owned - c;
       Pack grid[3], columns[8];
       grid_velocity.at(Eight<3>(mesh_.centroid[c].data(), left), grid);
-      load_columns(Eight<5>(values + 5 * c, left), columns);
+      load_columns(Eight<5, double>(values + 5 * c, left), columns);
       const State<Pack> s = primitive(columns, model_.gamma);
       store_rows(s, mach_column(s, grid), std::min<int>(8, zone_cells_[z].end - c), &state_.cells[c]);
     }
@@ -116,12 +116,10 @@ void EulerOperator::fill_cells(Vec q, const Frames& frames) {
 }
 
 /// Fills own rows of the derivative along dq; `turn` leads from the axes of dq.
-template <class Number>
-void EulerOperator::fill_derivatives(Vec dq, const ZoneTurn& turn, const CellFields<Number>& state,
+template <class Number, class Scalar>
+void EulerOperator::fill_derivatives(const Scalar* dq, const ZoneTurn& turn, const CellFields<Number>& state,
                                      CellFields<Number>& derivative) {
   using P = PackOf<Number>;
-  const double* derivatives = nullptr;
-  petsc(VecGetArrayRead(dq, &derivatives));
   for (size_t z = 0; z < held_.frames.size(); ++z) {
     const GridVelocity grid_velocity(held_.frames[z]);
     for (mesh::Index c = zone_cells_[z].begin; c < zone_cells_[z].end; c += 8) {
@@ -129,7 +127,7 @@ void EulerOperator::fill_derivatives(Vec dq, const ZoneTurn& turn, const CellFie
       const int count = std::min<int>(8, zone_cells_[z].end - c);
       P grid[3], along[8], rows[8], columns[8];
       grid_velocity.at(Eight<3>(mesh_.centroid[c].data(), left), grid);
-      load_columns(Eight<5>(derivatives + 5 * c, left), along);
+      load_columns(Eight<5, Scalar>(dq + 5 * c, left), along);
       if (!turn.none()) {
         const Mat3& R = turn.forth(z);
         const P m[3] = {along[1], along[2], along[3]};
@@ -142,11 +140,11 @@ void EulerOperator::fill_derivatives(Vec dq, const ZoneTurn& turn, const CellFie
       store_rows<Number>({s.rho.d, s.u.d, s.v.d, s.w.d, s.p.d}, mach_column(s, grid).d, count, &derivative.cells[c]);
     }
   }
-  petsc(VecRestoreArrayRead(dq, &derivatives));
 }
 
-template void EulerOperator::fill_derivatives(Vec, const ZoneTurn&, const CellFields<double>&, CellFields<double>&);
-template void EulerOperator::fill_derivatives(Vec, const ZoneTurn&, const CellFields<float>&, CellFields<float>&);
+template void EulerOperator::fill_derivatives(const double*, const ZoneTurn&, const CellFields<double>&, CellFields<double>&);
+template void EulerOperator::fill_derivatives(const double*, const ZoneTurn&, const CellFields<float>&, CellFields<float>&);
+template void EulerOperator::fill_derivatives(const float*, const ZoneTurn&, const CellFields<float>&, CellFields<float>&);
 
 /// state_single_ becomes the state that is held.
 void EulerOperator::round_state() {

@@ -50,7 +50,7 @@ bool InterfaceBand::factor(const double* blocks) {
   return factors_.factor(part);
 }
 
-void InterfaceBand::right_side(const double* b, double* changed) {
+void InterfaceBand::right_side(const float* b, float* changed) {
   const std::vector<mesh::Index>& cells = coupling_.cells();
   const auto subtract_product = [&](const auto& at) {
     for (size_t i = 0; i < cells.size(); ++i) std::copy_n(five(b, cells[i]), kVariables, five(changed, i));

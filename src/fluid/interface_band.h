@@ -18,7 +18,7 @@ class InterfaceBand {
   bool factor(const double* blocks);
   /// changed = b − C x at the coupling's cells, with B x = b − C D⁻¹ b by incomplete factors of B, A's part near an
   /// interface, and D their pivots. b: five values per owned cell. Collective.
-  void right_side(const double* b, double* changed);
+  void right_side(const float* b, float* changed);
 
  private:
   struct Pattern {
@@ -31,7 +31,7 @@ class InterfaceBand {
   std::vector<int> from_;           ///< where each block of B is in the whole matrix
   BlockIlu factors_;
   std::vector<int> at_interface_;  ///< places among cells_ of those at an interface
-  std::vector<double> b_, x_;      ///< of cells_
+  std::vector<float> b_, x_;      ///< of cells_
 };
 
 }  // namespace windhover::fluid

@@ -61,7 +61,7 @@ std::vector<mesh::Index> InterfaceCoupling::cells_within(int layers) const {
   return cells;
 }
 
-void InterfaceCoupling::subtract_product(double* sum) {
+void InterfaceCoupling::subtract_product(float* sum) {
   const auto rows = reinterpret_cast<std::array<float, kVariables>*>(x_.data());
   others_.begin(rows);
   others_.end(rows);

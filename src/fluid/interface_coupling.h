@@ -20,7 +20,7 @@ class InterfaceCoupling {
   std::vector<mesh::Index> cells_within(int layers) const;
   /// sum −= C x; sum: five values of each of cells(). x is asked for: at(i, to) writes the five floats of cells()[i]. Collective.
   template <class At>
-  void subtract_product(At&& at, double* sum) {
+  void subtract_product(At&& at, float* sum) {
     for (size_t i = 0; i < cells_.size(); ++i) at(i, x_.data() + kVariables * i);
     subtract_product(sum);
   }
@@ -29,7 +29,7 @@ class InterfaceCoupling {
   void set_up_exchange();
   /// Of a row of SlidingFaces among the cells at interfaces.
   mesh::Index place(mesh::Index row) const;
-  void subtract_product(double* sum);
+  void subtract_product(float* sum);
 
   EulerOperator& euler_;
   std::vector<mesh::Index> cells_;  ///< owned, at an interface

@@ -26,7 +26,7 @@ class Multigrid {
  private:
   struct Level {
     Mat matrix;
-    Handle<KSP, KSPDestroy> smoother;
+    KspHandle smoother;
     VecHandle x, b;  ///< solution and right-hand side, except on the finest level
   };
   void add_smoother(Level& level, Mat product, int ilu_levels, InterfaceCoupling* coupling, const char* options_prefix);

@@ -15,6 +15,8 @@ struct Preconditioner {
   bool coupled;                           ///< knows what sliding interfaces add
   /// Called once; solvers' options still override. No coupling where there are no interfaces.
   void (*set_up)(PC pc, int ilu_levels, InterfaceCoupling* coupling);
+  /// Applies it to five floats per owned cell; its set-up fails on all ranks or none. Null: it takes PETSc's vectors only.
+  void (*apply_single)(PC pc, const float* b, float* x) = nullptr;
 };
 
 /// ilu (each rank's part, overlap one), asm (PETSc's, overlap one), rrk (a few rational Runge–Kutta steps), rrk-multigrid

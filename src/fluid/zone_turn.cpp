@@ -13,11 +13,19 @@ ZoneTurn::ZoneTurn(const Frames& from, const Frames& to) {
 void ZoneTurn::turn(const mesh::Mesh& mesh, const std::vector<mesh::Mat3>& turns, Vec q) {
   double* v = nullptr;
   petsc(VecGetArray(q, &v));
-  for (mesh::Index c = 0; c < mesh.n_owned; ++c) {
-    Eigen::Map<mesh::Vec3> momentum(v + 5 * c + 1);
-    momentum = mesh::Vec3(turns[mesh.cell_zone[c]] * momentum);
-  }
+  turn(mesh, turns, v);
   petsc(VecRestoreArray(q, &v));
 }
+
+template <class Number>
+void ZoneTurn::turn(const mesh::Mesh& mesh, const std::vector<mesh::Mat3>& turns, Number* q) {
+  for (mesh::Index c = 0; c < mesh.n_owned; ++c) {
+    Eigen::Map<Eigen::Vector3<Number>> momentum(q + 5 * c + 1);
+    const mesh::Vec3 turned = turns[mesh.cell_zone[c]] * momentum.template cast<double>();
+    momentum = turned.cast<Number>();
+  }
+}
+
+template void ZoneTurn::turn(const mesh::Mesh&, const std::vector<mesh::Mat3>&, float*);
 
 }  // namespace windhover::fluid

@@ -19,9 +19,13 @@ class ZoneTurn {
   /// Conserved variables, five per owned cell: momenta turn with their zones.
   void forth(const mesh::Mesh& mesh, Vec q) const { turn(mesh, turn_, q); }
   void back(const mesh::Mesh& mesh, Vec q) const { turn(mesh, back_, q); }
+  void forth(const mesh::Mesh& mesh, float* q) const { turn(mesh, turn_, q); }
+  void back(const mesh::Mesh& mesh, float* q) const { turn(mesh, back_, q); }
 
  private:
   static void turn(const mesh::Mesh& mesh, const std::vector<mesh::Mat3>& turns, Vec q);
+  template <class Number>
+  static void turn(const mesh::Mesh& mesh, const std::vector<mesh::Mat3>& turns, Number* q);
 
   bool none_ = true;
   std::vector<mesh::Mat3> turn_, back_;

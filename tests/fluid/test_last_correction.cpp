@@ -29,7 +29,7 @@ MatHandle advection(int n) {
 struct Solver {
   MatHandle matrix = advection(200), product;
   VecHandle b, x;
-  Handle<KSP, KSPDestroy> ksp;
+  KspHandle ksp;
   std::optional<LastCorrection> last;
 
   Solver(KSPType type, double fall, bool may_end_early) {

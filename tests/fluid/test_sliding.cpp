@@ -27,7 +27,7 @@ struct Setup {
 /// sum −= C x, five values per owned cell.
 void subtract_product(InterfaceCoupling& c, const double* x, double* sum) {
   const std::vector<mesh::Index>& cells = c.cells();
-  std::vector<double> there(kVariables * cells.size());
+  std::vector<float> there(kVariables * cells.size());
   for (size_t i = 0; i < cells.size(); ++i) std::copy_n(sum + kVariables * cells[i], kVariables, &there[kVariables * i]);
   c.subtract_product([&](size_t i, float* to) { std::copy_n(x + kVariables * cells[i], kVariables, to); }, there.data());
   for (size_t i = 0; i < cells.size(); ++i) std::copy_n(&there[kVariables * i], kVariables, sum + kVariables * cells[i]);
