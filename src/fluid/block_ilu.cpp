@@ -1,7 +1,6 @@
 #include "fluid/block_ilu.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -14,56 +13,9 @@
 namespace windhover::fluid {
 namespace {
 
-constexpr int kSize = 5, kEntries = kSize * kSize, kPadded = 8;
+constexpr int kSize = kBlockSize, kEntries = kSize * kSize, kPadded = 8;
 
 void store(const Column& c, float* p) { std::memcpy(p, &c, sizeof c); }
-
-typedef std::int32_t Words __attribute__((vector_size(32)));
-
-/// The words of a block as its columns over its scale.
-class Columns {
- public:
-  explicit Columns(const BlockIlu::Block& block) : words_(std::bit_cast<Words>(block)) {}
-  template <int k>
-  Column at() const {
-    if constexpr (k < 4)
-      return __builtin_convertvector(words_ << 8 * (3 - k), Column);
-    else
-      return __builtin_convertvector(
-          __builtin_shufflevector(words_, words_, 5, 5, 5, 5, 6, 6, 6, 6) << Words{24, 16, 8, 0, 24, 16, 8, 0}, Column);
-  }
-
- private:
-  Words words_;
-};
-
-/// block · x
-Column times(const BlockIlu::Block& block, const float* x) {
-  const Columns columns(block);
-  Column sum = columns.at<0>() * x[0];
-  sum += columns.at<1>() * x[1];
-  sum += columns.at<2>() * x[2];
-  sum += columns.at<3>() * x[3];
-  sum += columns.at<4>() * x[4];
-  return sum * block.scale;
-}
-
-std::unique_ptr<BlockIlu::Block[]> allocate_blocks(size_t count) {
-  auto blocks = std::make_unique<BlockIlu::Block[]>(count);
-  use_large_pages(blocks.get(), count * sizeof(BlockIlu::Block));
-  return blocks;
-}
-
-/// A block whose columns are padded to whole registers.
-struct Padded {
-  Column column[kSize];
-};
-
-Column times(const Padded& block, const float* x) {
-  Column sum = block.column[0] * x[0];
-  for (int k = 1; k < kSize; ++k) sum += block.column[k] * x[k];
-  return sum;
-}
 
 Column rounded(const double* column) {
   typedef double Wide __attribute__((vector_size(64)));
@@ -72,52 +24,10 @@ Column rounded(const double* column) {
   return __builtin_convertvector(wide, Column);
 }
 
-/// Puts a byte above the k bytes of each word, so that the word over 2^8k is as near to `wanted` as it can be.
-void put_byte(const Column& wanted, int k, Words& words) {
-  constexpr float kUp = 128.5;  // conversion cuts off what is behind the point
-  const Column rest = wanted - __builtin_convertvector(words, Column) / static_cast<float>(1 << 8 * k);
-  words |= ((__builtin_convertvector(rest + kUp, Words) - static_cast<int>(kUp)) & 0xff) << 8 * k;
-}
-
-float largest_entry(const Padded& block) {
-  float largest = 0;
-  for (const Column& c : block.column)
-    for (int i = 0; i < kSize; ++i) largest = std::max(largest, std::abs(c[i]));
-  return largest;
-}
-
 Column load_five(const float* p) {
   Column c = {};
   std::memcpy(&c, p, kSize * sizeof(float));
   return c;
-}
-
-/// To nearest; what is not finite does not count, the pivots tell.
-BlockIlu::Block packed(const Padded& from) {
-  constexpr float kMost = 127, kLeast = 1e-30f;
-  const float largest = largest_entry(from);
-  if (!(largest > kLeast && std::isfinite(largest))) return {};
-  const float over = kMost / largest;
-  Words words{}, last{};
-  for (int k = 0; k < 4; ++k) {
-    put_byte(from.column[k] * over, k, words);
-    // the last column's rows, one byte of the same word after the other
-    put_byte(Column{} + from.column[4][k] * over, k, last);
-  }
-  words[5] = last[0];
-  last = Words{};
-  put_byte(from.column[4] * over, 0, last);
-  words[6] = last[4];
-  BlockIlu::Block block = std::bit_cast<BlockIlu::Block>(words);
-  block.scale = largest / kMost / (1 << 24);
-  return block;
-}
-
-Padded unpacked(const BlockIlu::Block& block) {
-  const Columns columns(block);
-  const float scale = block.scale;
-  return {columns.at<0>() * scale, columns.at<1>() * scale, columns.at<2>() * scale, columns.at<3>() * scale,
-          columns.at<4>() * scale};
 }
 
 Padded load(const float* block) {
@@ -196,7 +106,10 @@ class Chain {
 
 }  // namespace
 
-void BlockIlu::Triangle::allocate() { block = allocate_blocks(column.size()); }
+void BlockIlu::Triangle::allocate() {
+  block = std::make_unique<PackedBlock[]>(column.size());
+  use_large_pages(block.get(), column.size() * sizeof(PackedBlock));
+}
 
 BlockIlu::BlockIlu(int n, const int* start, const int* column, int levels, Rows given)
     : n_(n), rows_(given), given_start_(start, start + n + 1), given_column_(column, column + start[n]) {
@@ -279,7 +192,7 @@ constexpr int kAhead = 2048;  // bytes: rows are too short for the processor to 
 
 /// The block, with memory so many bytes from it asked for.
 template <int bytes>
-const BlockIlu::Block& ahead(const BlockIlu::Block& block) {
+const PackedBlock& ahead(const PackedBlock& block) {
   __builtin_prefetch(reinterpret_cast<const char*>(&block) + bytes);
   return block;
 }

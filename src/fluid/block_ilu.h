@@ -1,10 +1,11 @@
 // Incomplete LU factors of a matrix of 5x5 blocks, kept in bytes and applied in single precision: what fill they leave out
 // is worth more than the digits.
 #pragma once
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
+
+#include "fluid/packed_block.h"
 
 namespace windhover::fluid {
 
@@ -18,13 +19,6 @@ class BlockIlu {
  public:
   struct Rows {
     int first, count;
-  };
-  /// 25 signed bytes and what they are to be multiplied with. Word i < 5: row i of the first four columns, the first in the
-  /// lowest byte; words 5 and 6: the last column. A byte is read with those below it in its word, as digits behind the
-  /// point, and was rounded with them.
-  struct alignas(32) Block {
-    std::uint32_t word[7];
-    float scale;
   };
   /// Pattern of n block rows: columns column[start[i]] to column[start[i + 1] - 1] in ascending order, the diagonal
   /// among them. `levels` of fill: Saad, Iterative Methods for Sparse Linear Systems, 2nd ed., section 10.3.3.
@@ -44,7 +38,7 @@ class BlockIlu {
   struct Triangle {
     std::vector<size_t> start{0};
     std::vector<int> column;
-    std::unique_ptr<Block[]> block;
+    std::unique_ptr<PackedBlock[]> block;
     void allocate();
   };
   void find_pattern(const int* start, const int* column, int levels);
