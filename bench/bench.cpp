@@ -191,6 +191,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: windhover_bench MESH NAME JSON_OUT\n");
     return 2;
   }
+  use_large_pages(argv);
   PetscInitialize(nullptr, nullptr, nullptr, nullptr);
   {
     const auto results = Bench(argv[1], argv[2]).run();

@@ -8,6 +8,7 @@
 
 #include "app/flow_setup.h"
 #include "app/zone_tree.h"
+#include "base/memory.h"
 
 using namespace windhover;
 using namespace windhover::fluid;
@@ -126,6 +127,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: windhover_bench_sliding CASE.toml NAME JSON_OUT [key=value ...]\n");
     return 2;
   }
+  use_large_pages(argv);
   PetscInitialize(nullptr, nullptr, nullptr, nullptr);
   {
     const auto result = SlidingBench(app::load_case(argv[1], {argv + 4, argv + argc})).run(argv[2]);

@@ -11,6 +11,7 @@
 #include "app/verify.h"
 #include "base/errors.h"
 #include "base/interrupt.h"
+#include "base/memory.h"
 #include "base/version.h"
 
 namespace windhover::app {
@@ -136,6 +137,7 @@ int run_command(int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error);
     return guarded([&]() -> int { throw UserError("{} (windhover --help tells more)", error.what()); });
   }
+  if (*run_app || *trim_app) use_large_pages(argv);
   return guarded([&] {
     if (*mesh_app) return mesh_command(a);
     if (*run_app) return run_command(a);

@@ -1,9 +1,10 @@
 #include "base/memory.h"
 
 #include <malloc.h>
-#include <sys/mman.h>
+#include <unistd.h>
 
-#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -26,13 +27,14 @@ double resident_bytes() { return status_bytes("VmRSS:"); }
 
 double peak_resident_bytes() { return status_bytes("VmHWM:"); }
 
-void use_large_pages(const void* data, std::size_t bytes) {
-#ifdef __linux__
-  constexpr std::uintptr_t kPage = 2 << 20;
-  constexpr int kCollapse = 25;  // MADV_COLLAPSE, newer than the C library's headers
-  const auto begin = (reinterpret_cast<std::uintptr_t>(data) + kPage - 1) / kPage * kPage;
-  const auto end = (reinterpret_cast<std::uintptr_t>(data) + bytes) / kPage * kPage;
-  if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, kCollapse);
+void use_large_pages(char** arguments) {
+#ifdef __GLIBC__
+  constexpr const char* kTunables = "GLIBC_TUNABLES";
+  std::error_code none;
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe", none);
+  if (program.empty() || std::getenv(kTunables)) return;
+  setenv(kTunables, "glibc.malloc.hugetlb=1", 1);
+  execv(program.c_str(), arguments);  // comes back only if it fails, and nothing is lost
 #endif
 }
 

@@ -1,7 +1,5 @@
 // The memory of this process.
 #pragma once
-#include <cstddef>
-
 namespace windhover {
 
 /// Resident bytes of this rank, now and at most so far.
@@ -11,12 +9,9 @@ double peak_resident_bytes();
 /// Gives what has been freed back to the system (MPI libraries make malloc keep it).
 void release_free_memory();
 
-/// Moves an array that is swept in full to the kernel's large pages (2 MiB): fewer misses in the processor's page tables.
-/// Only where the kernel offers them (Linux 6.1); elsewhere, and on small arrays, nothing happens.
-void use_large_pages(const void* data, std::size_t bytes);
-template <class Array>
-void use_large_pages(const Array& a) {
-  use_large_pages(a.data(), a.size() * sizeof(*a.data()));
-}
+/// Has malloc ask for the kernel's large pages (2 MiB): fewer misses in the processor's page tables, which cost twice in a virtual
+/// machine. The GNU C library takes such a wish from its environment at the start of a program alone, so this replaces the
+/// program by itself, before MPI starts. Returns if GLIBC_TUNABLES is set: this has been done, or the user rules.
+void use_large_pages(char** arguments);
 
 }  // namespace windhover

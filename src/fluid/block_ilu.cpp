@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "base/memory.h"
 #include "base/petsc.h"
 #include "fluid/five_columns.h"
 // needs PETSc's types before it
@@ -106,10 +105,7 @@ class Chain {
 
 }  // namespace
 
-void BlockIlu::Triangle::allocate() {
-  block = std::make_unique<PackedBlock[]>(column.size());
-  use_large_pages(block.get(), column.size() * sizeof(PackedBlock));
-}
+void BlockIlu::Triangle::allocate() { block = std::make_unique<PackedBlock[]>(column.size()); }
 
 BlockIlu::BlockIlu(int n, const int* start, const int* column, int levels, Rows given)
     : n_(n), rows_(given), given_start_(start, start + n + 1), given_column_(column, column + start[n]) {
@@ -117,7 +113,6 @@ BlockIlu::BlockIlu(int n, const int* start, const int* column, int levels, Rows 
   lower_.allocate();
   upper_.allocate();
   pivot_.resize(static_cast<size_t>(n) * kEntries + kPadded);
-  use_large_pages(pivot_);
   work_.resize(static_cast<size_t>(n) * kPadded);
 }
 

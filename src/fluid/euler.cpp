@@ -64,7 +64,6 @@ EulerOperator::EulerOperator(const mesh::Mesh& mesh, FlowModel model, std::vecto
   }
   state_.resize(sliding_.n_cells(), model_.reconstruction != Reconstruction::first_order ? n_sides : 0);
   rates_.resize(n_sides);
-  use_large_pages(rates_);
 }
 
 VecHandle EulerOperator::make_vector() const {

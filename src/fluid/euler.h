@@ -9,7 +9,6 @@
 #include <tuple>
 #include <vector>
 
-#include "base/memory.h"
 #include "fluid/block_jacobian.h"
 #include "fluid/boundary_kernels.h"
 #include "fluid/gradient.h"
@@ -68,8 +67,6 @@ struct CellFields {
   void resize(size_t n_cells, size_t n_gradients) {
     cells.resize(n_cells);
     gradients.resize(n_gradients);
-    use_large_pages(cells);
-    use_large_pages(gradients);
   }
   CellRows<Number> rows(const CellFields& derivative) const {
     return {cells.data(), gradients.data(), derivative.cells.data(), derivative.gradients.data()};

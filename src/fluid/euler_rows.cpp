@@ -152,7 +152,6 @@ void EulerOperator::round_state() {
   if (state_single_.cells.empty()) {
     state_single_.resize(state_.cells.size(), state_.gradients.size());
     single_faces_.zones.assign(mesh_.faces.begin(), mesh_.faces.end());
-    use_large_pages(single_faces_.zones);
     for (const mesh::Patch& p : mesh_.patches) single_faces_.patches.emplace_back(p.blocks.begin(), p.blocks.end());
   }
   const auto round = [](const auto& from, auto& to) {

@@ -5,7 +5,6 @@
 #include <map>
 #include <numeric>
 
-#include "base/memory.h"
 #include "mesh/cell_shape.h"
 #include "mesh/motion.h"
 
@@ -128,10 +127,6 @@ GreenGauss::GreenGauss(const Mesh& m) {
   n_inner_ = nodes.n_inner;
   node_start_ = std::move(nodes.start);
   node_cell_ = std::move(nodes.cell);
-  use_large_pages(node_cell_);
-  use_large_pages(node_weight_);
-  use_large_pages(cell_node_);
-  use_large_pages(coefficient_);
   if (!ill_conditioned.empty()) exceptions_.emplace(m, std::move(ill_conditioned));
 }
 
@@ -157,7 +152,6 @@ void GreenGauss::begin(const RowOf<Number>* cells) const {
   auto& node_rows = std::get<NodeRows<Number>>(node_rows_);
   if (node_rows.empty()) {
     node_rows.resize(node_start_.size() - 1);
-    use_large_pages(node_rows);
   }
   average(0, n_inner_, cells);
 }

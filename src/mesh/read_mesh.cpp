@@ -134,8 +134,6 @@ Mesh build_mesh(const std::string& file, double scale, MPI_Comm comm, const std:
 Mesh read_mesh(const std::string& file, double scale, MPI_Comm comm, const std::set<std::string>& sliding) {
   Mesh mesh = build_mesh(file, scale, comm, sliding);
   release_free_memory();  // reading takes several times what is kept
-  use_large_pages(mesh.faces);
-  use_large_pages(mesh.centroid);
   return mesh;
 }
 

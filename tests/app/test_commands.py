@@ -101,18 +101,34 @@ class Commands(unittest.TestCase):
         self.assertEqual((self.folder / "out/history.csv").read_text(), "precious\n")
         self.assertEqual(len(list((self.folder / "out").iterdir())), 1)
 
+    def long_run(self, out, **environment):
+        """A run that has taken steps and would take many more."""
+        process = subprocess.Popen([WINDHOVER, "run", "box/case.toml", "--out", out, "--set", "time.steps=100000000"],
+                                   cwd=self.folder, env={**os.environ, **environment}, stdout=subprocess.DEVNULL)
+        history = self.folder / out / "history.csv"
+        while process.poll() is None and (not history.exists() or history.read_text().count("\n") < 4):
+            time.sleep(0.05)
+        return process
+
     def test_interrupt_writes_a_checkpoint(self):
         self.make_mesh()
         for number, code in (signal.SIGINT, 130), (signal.SIGTERM, 143):
             out = f"out{code}"
-            process = subprocess.Popen([WINDHOVER, "run", "box/case.toml", "--out", out, "--set", "time.steps=100000000"],
-                                       cwd=self.folder, stdout=subprocess.DEVNULL)
-            history = self.folder / out / "history.csv"
-            while process.poll() is None and (not history.exists() or history.read_text().count("\n") < 4):
-                time.sleep(0.05)
+            process = self.long_run(out)
             process.send_signal(number)
             self.assertEqual(process.wait(), code)
             self.assertTrue(list((self.folder / out / "checkpoint").glob("*.h5")))
+
+    def test_malloc_asks_for_large_pages_unless_the_user_rules(self):
+        self.make_mesh()
+        os.environ.pop("GLIBC_TUNABLES", None)
+        theirs = {"GLIBC_TUNABLES": "glibc.malloc.hugetlb=0"}
+        for out, given, expected in ("ours", {}, "glibc.malloc.hugetlb=1"), ("theirs", theirs, theirs["GLIBC_TUNABLES"]):
+            process = self.long_run(out, **given)
+            words = pathlib.Path(f"/proc/{process.pid}/environ").read_text().split("\0")
+            process.kill()
+            process.wait()
+            self.assertEqual([w for w in words if w.startswith("GLIBC_TUNABLES=")], [f"GLIBC_TUNABLES={expected}"])
 
     def run_case(self, *arguments, **others):
         return self.run_program("run", "box/case.toml", "--out", "out", *arguments, **others)
