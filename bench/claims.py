@@ -64,7 +64,8 @@ class Flow:
         seconds = statistics.median(times)
         total = sum(float(row["wall_s"]) for row in rows)
         return {"cells": cells, "ranks": ranks, "seconds": seconds, "us_per_cell": 1e6 * seconds / cells,
-                "decile_s": times[len(times) // 10], "total_s": total, "newton": mean("newton"), "krylov": mean("krylov"), "thrust_N": sum(mean(t, rows) for t in thrust)}
+                "decile_s": times[len(times) // 10], "total_s": total, "newton": mean("newton"), "krylov": mean("krylov"),
+                "thrust_N": sum(mean(t, rows) for t in thrust)}
 
 
 def rotor(work, refine):

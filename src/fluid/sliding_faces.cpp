@@ -72,9 +72,7 @@ double SlidingFaces::angle(const mesh::SlidingInterface& interface, const Frames
   return std::atan2(axis.dot(x.cross(moved)), x.dot(moved));
 }
 
-void SlidingFaces::make_faces(size_t i, double angle, InterfaceFaces& faces) const {
-  const std::vector<mesh::Piece>& pieces = interfaces_[i].pieces(angle);
-  interfaces_[i].audit(angle, pieces);
+void SlidingFaces::make_faces(size_t i, const std::vector<mesh::Piece>& pieces, InterfaceFaces& faces) const {
   const auto is_own = [&](int side, int face) { return interfaces_[i].faces(side)[face].rank == rank_; };
   faces.clear();
   const auto append = [&](bool inner_is_own) {
@@ -114,7 +112,12 @@ SlidingFaces::Position& SlidingFaces::position(const Frames& frames) {
   }
   position.angles = angles;
   position.faces.resize(interfaces_.size());
-  for (size_t i = 0; i < interfaces_.size(); ++i) make_faces(i, angles[i], position.faces[i]);
+  for (size_t i = 0; i < interfaces_.size(); ++i) interfaces_[i].cut(angles[i]);
+  for (size_t i = 0; i < interfaces_.size(); ++i) {
+    const std::vector<mesh::Piece>& pieces = interfaces_[i].hand_out();
+    interfaces_[i].audit(angles[i], pieces);
+    make_faces(i, pieces, position.faces[i]);
+  }
   for (auto& faces : position.single) faces.clear();
   positions_.push_back(std::move(position));
   return positions_.back();

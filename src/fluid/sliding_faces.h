@@ -67,7 +67,7 @@ class SlidingFaces {
   static const std::vector<InterfaceFacesOf<float>>& single(Position& p);
   void number_cells();
   double angle(const mesh::SlidingInterface& interface, const Frames& frames) const;
-  void make_faces(size_t i, double angle, InterfaceFaces& faces) const;
+  void make_faces(size_t i, const std::vector<mesh::Piece>& pieces, InterfaceFaces& faces) const;
 
   const mesh::Mesh& mesh_;
   int rank_;

@@ -26,6 +26,17 @@ std::array<Vec3, 4> local_corners(const RevolutionSurface& surface, const Interf
   return local;
 }
 
+/// For each inner face and the end: what cutting all faces before it takes, in other faces that their boxes meet.
+std::vector<long> work_before(const RevolutionSurface& surface, const InterfaceSide& inner, const BoxTree& outer) {
+  std::vector<long> work{0};
+  std::vector<int> near;
+  for (const InterfaceFace& face : inner.faces) {
+    outer.find(box_of(surface, local_corners(surface, face), face.n), near);
+    work.push_back(work.back() + 1 + static_cast<long>(near.size()));
+  }
+  return work;
+}
+
 BoxTree tree_of(const RevolutionSurface& surface, const InterfaceSide& side) {
   std::vector<Box> boxes;
   for (const InterfaceFace& face : side.faces) boxes.push_back(box_of(surface, local_corners(surface, face), face.n));
@@ -74,26 +85,25 @@ SlidingInterface::SlidingInterface(const RevolutionSurface& surface, std::array<
     : surface_(surface),
       sides_(std::move(sides)),
       outer_boxes_(tree_of(surface_, sides_[1])),
+      work_before_(work_before(surface_, sides_[0], outer_boxes_)),
       comm_(comm),
       rank_(rank_of(comm)) {
   for (const ChartFace& face : sides_[1].charts) outer_in_chart_.push_back(box_in_chart(face.outline));
 }
 
-const std::vector<Piece>& SlidingInterface::pieces(double angle) const {
-  const long n = static_cast<long>(faces(0).size()), ranks = size_of(comm_);
-  cut(angle, static_cast<int>(rank_ * n / ranks), static_cast<int>((rank_ + 1) * n / ranks), share_);
-  if (ranks == 1) return share_;
-  hand_out();
-  return received_;
+int SlidingInterface::first_of_share(int rank) const {
+  const long before = work_before_.back() * rank / size_of(comm_);
+  return static_cast<int>(std::lower_bound(work_before_.begin(), work_before_.end(), before) - work_before_.begin());
 }
 
-void SlidingInterface::cut(double angle, int begin, int end, std::vector<Piece>& pieces) const {
+void SlidingInterface::cut(double angle) const {
   constexpr double least = 1e-14;  // of the smaller face: below is round-off of faces that only touch
   angle = std::remainder(angle, 2 * M_PI);
   const double cosine = std::cos(angle), sine = std::sin(angle);
   const auto& [inner, outer] = sides_;
-  pieces.clear();
-  pieces.reserve(6 * static_cast<std::size_t>(end - begin));
+  const int begin = first_of_share(rank_), end = first_of_share(rank_ + 1);
+  share_.clear();
+  share_.reserve(6 * static_cast<std::size_t>(end - begin));
   std::vector<int> near;
   Polygon common;
   for (int i = begin; i < end; ++i) {
@@ -119,13 +129,14 @@ void SlidingInterface::cut(double angle, int begin, int end, std::vector<Piece>&
       piece.centroid = surface_.to_parent(patch.centroid);
       piece.arm = {surface_.to_parent(rotated(patch.centroid, cosine, -sine)) - face.cell_centroid,
                    piece.centroid - other.cell_centroid};
-      pieces.push_back(piece);
+      share_.push_back(piece);
     }
   }
 }
 
-void SlidingInterface::hand_out() const {
+const std::vector<Piece>& SlidingInterface::hand_out() const {
   const int ranks = size_of(comm_);
+  if (ranks == 1) return share_;
   const auto for_each_receiver = [&](const Piece& piece, auto visit) {
     const int inner = faces(0)[piece.inner].rank, outer = faces(1)[piece.outer].rank;
     visit(inner);
@@ -145,6 +156,7 @@ void SlidingInterface::hand_out() const {
   const MpiType type(sizeof(Piece), MPI_BYTE);
   MPI_Alltoallv(sent_.data(), n_sent.data(), send_at.data(), type, received_.data(), n_received.data(), receive_at.data(),
                 type, comm_);
+  return received_;
 }
 
 double SlidingInterface::audit(double angle, std::span<const Piece> pieces) const {
@@ -179,13 +191,12 @@ double SlidingInterface::audit(double angle, std::span<const Piece> pieces) cons
     int rank;
   } own{worst, rank_}, all{};
   MPI_Allreduce(&own, &all, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm_);
+  if (all.error <= allowed) return all.error;
   MPI_Bcast(place.data(), 3, MPI_DOUBLE, all.rank, comm_);
-  if (all.error > allowed)
-    throw SolverFailure(
-        "sliding interface: at ({:.6g}, {:.6g}, {:.6g}) in lengths of the mesh, the pieces of a face differ "
-        "from it by {:.3g} of it",
-        place.x(), place.y(), place.z(), all.error);
-  return all.error;
+  throw SolverFailure(
+      "sliding interface: at ({:.6g}, {:.6g}, {:.6g}) in lengths of the mesh, the pieces of a face differ "
+      "from it by {:.3g} of it",
+      place.x(), place.y(), place.z(), all.error);
 }
 
 namespace {

@@ -34,29 +34,34 @@ class SlidingInterface {
   int zone(int side) const { return sides_[side].zone; }
   Vec3 axis() const { return surface_.axes().col(2); }  ///< in the parent's frame
 
-  /// The pieces with at least one cell on this rank when the inner zone is turned by the angle about the axis (right-handed,
-  /// radians, relative to the parent), ordered by inner, then outer face. The sum over a face's pieces is the face. Each rank
-  /// cuts an equal share of the inner faces, whosever they are. The same normal velocity of the mesh on both sides:
-  /// n·(axis × r) = 0. Valid until the next call. Collective.
-  const std::vector<Piece>& pieces(double angle) const;
+  /// Cuts pieces with the inner zone turned by the angle about the axis (right-handed, radians, relative to the parent): on each
+  /// rank those of an equal share of the inner faces, whosever they are. The sum over a face's pieces is the face. The same
+  /// normal velocity of the mesh on both sides: n·(axis × r) = 0. Waits for no other rank, so that what ranks need for several
+  /// interfaces can even out before they are handed out.
+  void cut(double angle) const;
+  /// The pieces cut last with at least one cell on this rank, ordered by inner, then outer face. Valid until the next cut.
+  /// Collective.
+  const std::vector<Piece>& hand_out() const;
+  const std::vector<Piece>& pieces(double angle) const {
+    cut(angle);
+    return hand_out();
+  }
 
   /// Collective: the largest |Σ pieces − face| over both sides, in area relative to the face's size, and in moment to size
   /// times distance. SolverFailure above 1e-10.
   double audit(double angle, std::span<const Piece> pieces) const;
 
  private:
-  /// Pieces of the inner faces [begin, end), some MB that are kept from call to call.
-  void cut(double angle, int begin, int end, std::vector<Piece>& pieces) const;
-  /// Sends each piece to the ranks of its cells. Collective.
-  void hand_out() const;
+  int first_of_share(int rank) const;
 
   RevolutionSurface surface_;
   std::array<InterfaceSide, 2> sides_;
   BoxTree outer_boxes_;
   std::vector<Box> outer_in_chart_;
+  std::vector<long> work_before_;
   MPI_Comm comm_;
   int rank_;
-  mutable std::vector<Piece> share_, sent_, received_;
+  mutable std::vector<Piece> share_, sent_, received_;  ///< some MB that are kept from call to call
 };
 
 /// Collective, once after read_mesh, for all interfaces of the mesh together: finds and checks their faces, and gives the
