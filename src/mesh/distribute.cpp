@@ -7,19 +7,51 @@
 
 #include "base/mpi_type.h"
 #include "mesh/cell_shape.h"
+#include "mesh/sliding/box_tree.h"
 
 namespace windhover::mesh {
 namespace {
 
 using PartitioningHandle = Handle<MatPartitioning, MatPartitioningDestroy>;
 
-/// The cells as a graph of face neighbours, all rows on rank 0.
-MatHandle neighbour_graph(const std::vector<FileCell>& cells, MPI_Comm comm) {
+int sliding_faces(const FileMesh& whole, const FileCell& cell, const std::set<std::string>& sliding) {
+  return static_cast<int>(std::count_if(cell.sides.begin(), cell.sides.end(), [&](const FileSide& side) {
+    return side.patch >= 0 && sliding.contains(whole.patches[side.patch].name);
+  }));
+}
+
+/// Pairs of cells that an interface parts as the mesh stands in its file; both ways.
+std::vector<std::vector<PetscInt>> across_interfaces(const FileMesh& whole, const std::set<std::string>& sliding) {
+  std::vector<std::vector<PetscInt>> across(whole.cells.size());
+  std::vector<PetscInt> cells;
+  std::vector<Box> boxes;
+  for (std::size_t c = 0; c < whole.cells.size(); ++c) {
+    const FileCell& cell = whole.cells[c];
+    if (sliding_faces(whole, cell, sliding) == 0) continue;
+    cells.push_back(static_cast<PetscInt>(c));
+    Box& box = boxes.emplace_back();
+    for (int k = 0; k < point_count(cell.type); ++k) box.extend(cell.corners[k].position);
+  }
+  const BoxTree tree(boxes);
+  std::vector<int> near;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    tree.find(boxes[i], near);
+    for (const int j : near)
+      if (whole.cells[cells[j]].zone != whole.cells[cells[i]].zone) across[cells[i]].push_back(cells[j]);
+  }
+  return across;
+}
+
+/// The cells as a graph of neighbours, by faces and across interfaces, all rows on rank 0.
+MatHandle neighbour_graph(const FileMesh& whole, const std::set<std::string>& sliding, MPI_Comm comm) {
+  const std::vector<FileCell>& cells = whole.cells;
   const auto n = static_cast<PetscInt>(cells.size());
+  const std::vector<std::vector<PetscInt>> across = across_interfaces(whole, sliding);
   std::vector<PetscInt> start{0}, neighbours;
-  for (const FileCell& cell : cells) {
-    for (const FileSide& side : cell.sides)
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    for (const FileSide& side : cells[c].sides)
       if (side.neighbour >= 0) neighbours.push_back(side.neighbour);
+    neighbours.insert(neighbours.end(), across[c].begin(), across[c].end());
     start.push_back(static_cast<PetscInt>(neighbours.size()));
   }
   PetscInt *rows = nullptr, *columns = nullptr;  // the matrix frees them
@@ -39,11 +71,8 @@ PetscInt* cell_weights(const FileMesh& whole, const std::set<std::string>& slidi
   constexpr PetscInt kCell = 5, kSlidingFace = 7;  // 0.68 and 0.95 µs, Roe's flux, exact products, ilu; pieces are cut by all ranks alike
   PetscInt* weights = nullptr;
   petsc(PetscMalloc1(whole.cells.size(), &weights));
-  for (std::size_t c = 0; c < whole.cells.size(); ++c) {
-    weights[c] = kCell;
-    for (const FileSide& side : whole.cells[c].sides)
-      if (side.patch >= 0 && sliding.contains(whole.patches[side.patch].name)) weights[c] += kSlidingFace;
-  }
+  for (std::size_t c = 0; c < whole.cells.size(); ++c)
+    weights[c] = kCell + kSlidingFace * sliding_faces(whole, whole.cells[c], sliding);
   return weights;
 }
 
@@ -52,7 +81,7 @@ std::vector<int> partition(const FileMesh& whole, const std::set<std::string>& s
   const std::vector<FileCell>& cells = whole.cells;
   if (n_ranks == 1) return std::vector<int>(cells.size(), 0);
   setenv("SCOTCH_PTHREAD_NUMBER", "1", 0);  // with threads, each run would get another partition
-  const MatHandle graph = neighbour_graph(cells, comm);
+  const MatHandle graph = neighbour_graph(whole, sliding, comm);
   PartitioningHandle partitioning;
   petsc(MatPartitioningCreate(comm, partitioning.out()));
   petsc(MatPartitioningSetAdjacency(partitioning, graph));

@@ -16,8 +16,8 @@ struct MeshPart {
   Index n_owned = 0, n_gradient = 0;
 };
 
-/// Collective. The mesh is given on rank 0; divided by PTSCOTCH over the face neighbours, where cells are large. Faces on the
-/// surfaces named in `sliding` (the same on all ranks) are known to take work.
+/// Collective. The mesh is given on rank 0; divided by PTSCOTCH over neighbours by faces and across the surfaces named in
+/// `sliding` (the same on all ranks), whose faces are known to take work.
 MeshPart distribute(const FileMesh& whole, const std::set<std::string>& sliding, MPI_Comm comm);
 
 }  // namespace windhover::mesh
