@@ -37,6 +37,7 @@ void FlowCheckpoint::write(const std::filesystem::path& directory, const fluid::
   out.attribute("dt_s", state.last_step * s.time());
   out.attribute("time", state.time);  // nondimensional, to the last bit
   out.attribute("last_step", state.last_step);
+  out.attribute("step_before", state.step_before);
   out.attribute("density_kg_m3", s.density);
   out.attribute("sound_speed_m_s", s.velocity);
   out.attribute("length_m", s.length);
@@ -51,6 +52,7 @@ void FlowCheckpoint::write(const std::filesystem::path& directory, const fluid::
   out.attribute("zone_x_m", x);
   out.array("q", rows_of(state.q), fluid::kVariables);
   out.array("q_previous", rows_of(state.previous), fluid::kVariables);
+  if (state.step_before > 0) out.array("q_earlier", rows_of(state.earlier), fluid::kVariables);
   std::vector<double> centroid, volume, zone(mesh_.cell_zone.begin(), mesh_.cell_zone.begin() + mesh_.n_owned);
   for (mesh::Index c = 0; c < mesh_.n_owned; ++c) {
     for (int k = 0; k < 3; ++k) centroid.push_back(s.length * mesh_.centroid[c][k]);
@@ -84,6 +86,10 @@ Memory FlowCheckpoint::read(const std::filesystem::path& directory, fluid::FlowS
   };
   load("q", state.q);
   load("q_previous", state.previous);
+  if (state.earlier && in.has_array("q_earlier")) {  // not from explicit runs
+    load("q_earlier", state.earlier);
+    state.step_before = in.attribute<double>("step_before");
+  }
   const auto recall = [&](const char* name) {
     return in.has_array(name) ? in.array(name, 1, 0, in.rows(name)) : std::vector<double>();
   };

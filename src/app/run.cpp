@@ -47,6 +47,7 @@ std::vector<double> Run::begin(bool restart) {
     const Vec3 jump = wind_jump(case_) / scales_.velocity;
     fluid::add_velocity(jump, state.q);
     fluid::add_velocity(jump, state.previous);
+    if (state.step_before > 0) fluid::add_velocity(jump, state.earlier);
     if (!memory.step.empty()) control_.restore(memory.step);  // no first step: the flow is under way
     return memory.vehicle;
   }

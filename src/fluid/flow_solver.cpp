@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fluid/prediction.h"
+
 namespace windhover::fluid {
 namespace {
 
@@ -16,18 +18,6 @@ void add_times_volume(const mesh::Mesh& mesh, double alpha, Vec x, Vec y) {
     for (int k = 0; k < kVariables; ++k) to[5 * c + k] += alpha * mesh.volume[c] * from[5 * c + k];
   petsc(VecRestoreArrayRead(x, &from));
   petsc(VecRestoreArray(y, &to));
-}
-
-double kinetic_energy(const double* q) { return 0.5 * (q[1] * q[1] + q[2] * q[2] + q[3] * q[3]) / q[0]; }
-
-/// By how much each zone turns in `time` if it goes on as now.
-std::vector<mesh::Mat3> turns(const Frames& now, double time) {
-  std::vector<mesh::Mat3> result;
-  for (const mesh::FrameState& f : now) {
-    const double rate = f.omega.norm();
-    result.push_back(rate > 0 ? Eigen::AngleAxisd(rate * time, f.omega / rate).toRotationMatrix() : mesh::Mat3::Identity());
-  }
-  return result;
 }
 
 }  // namespace
@@ -49,6 +39,7 @@ FlowSolver::FlowSolver(EulerOperator& euler, const FlowOptions& options)
   if (options_.scheme->implicit) stage_solver_ = options.method->make(euler, options.newton, options.dual_time);
   state_.q = euler.make_vector();
   state_.previous = euler.make_vector();
+  if (options_.scheme->implicit && options_.extrapolate) state_.earlier = euler.make_vector();
   known_ = euler.make_vector();
   for (int i = 0; i < options_.scheme->stages; ++i) {
     const bool solved = options_.scheme->implicit ? options_.scheme->a[i][i] != 0 : i + 1 == options_.scheme->stages;
@@ -125,47 +116,6 @@ double FlowSolver::good_enough(double rate) const {
   return std::min(options_.truncation_fraction * truncation, kLargest * rate);
 }
 
-/// out: pressure and velocity of q_{n−1} and q_n extended in a line by fraction Δt, at the entropy of q_n: a gas without shocks
-/// keeps it, and what Newton's method leaves of it in a small cell swings from step to step; along the line it would come back
-/// up to three times as large. Velocity goes on in inertial axes or in those of its zone, in which flow around a blade is nearly
-/// steady: where it changed less in the last step. A cell follows the line until its pressure has changed by kMost: beyond, it
-/// says nothing, and a cell near vacuum would stall the linear solver.
-void FlowSolver::predict(double fraction, double dt, const Frames& now, Vec out) const {
-  constexpr double kMost = 0.2;
-  constexpr int kImpulse = 6;  // an impulsive start does not go on as it began
-  const bool starting = state_.step < std::min(kImpulse, options_.start_steps);
-  if (!options_.extrapolate || state_.last_step == 0 || starting) {
-    petsc(VecCopy(state_.q, out));
-    return;
-  }
-  const double r = fraction * dt / state_.last_step, gamma = euler_.model().gamma;
-  const std::vector<mesh::Mat3> last = turns(now, state_.last_step), next = turns(now, fraction * dt);
-  const double *now_values = nullptr, *before = nullptr;
-  double* guess = nullptr;
-  petsc(VecGetArrayRead(state_.q, &now_values));
-  petsc(VecGetArrayRead(state_.previous, &before));
-  petsc(VecGetArrayWrite(out, &guess));
-  for (mesh::Index c = 0; c < euler_.mesh().n_owned; ++c) {
-    const int zone = euler_.mesh().cell_zone[c];
-    const double *q = now_values + 5 * c, *p = before + 5 * c;
-    const mesh::Vec3 m(q[1], q[2], q[3]), u = m / q[0], earlier = mesh::Vec3(p[1], p[2], p[3]) / p[0];
-    const mesh::Vec3 change = u - earlier, in_zone = u - last[zone] * earlier;
-    const double pressure = primitive(q, gamma).p, rise = (pressure - primitive(p, gamma).p) / pressure;
-    const double share = std::abs(r * rise) > kMost ? kMost / std::abs(rise) : r;
-    const double denser = 1 + share * rise / gamma;  // dp = c² dρ
-    const bool steadier = in_zone.squaredNorm() < change.squaredNorm();
-    const mesh::Vec3 momentum =
-        denser * (steadier ? mesh::Vec3(next[zone] * (m + share * q[0] * in_zone)) : mesh::Vec3(m + share * q[0] * change));
-    double* g = guess + 5 * c;
-    g[0] = denser * q[0];
-    std::copy_n(momentum.data(), 3, g + 1);
-    g[4] = q[4] + share * rise * pressure / (gamma - 1) + kinetic_energy(g) - kinetic_energy(q);
-  }
-  petsc(VecRestoreArrayWrite(out, &guess));
-  petsc(VecRestoreArrayRead(state_.previous, &before));
-  petsc(VecRestoreArrayRead(state_.q, &now_values));
-}
-
 /// out = q_n − Δt/V Σ_j coefficients_j R_j
 void FlowSolver::explicit_state(const double* coefficients, int stages, double dt, Vec out) {
   petsc(VecSet(out, 0.0));
@@ -222,6 +172,15 @@ void FlowSolver::note_krylov() {
   jacobian_.excess += std::max(0, now - jacobian_.fresh);
 }
 
+void FlowSolver::predict(double dt, const Frames& now, Vec out) const {
+  constexpr int kImpulse = 6;  // an impulsive start does not go on as it began
+  const bool starting = state_.step < std::min(kImpulse, options_.start_steps);
+  if (!options_.extrapolate || state_.last_step == 0 || starting)
+    petsc(VecCopy(state_.q, out));
+  else
+    extend(euler_, state_, now, dt, out);
+}
+
 void FlowSolver::begin(const FrameFunction& frames, double dt) {
   const TimeScheme& scheme = current_scheme();
   if (stage_solver_ && stale(dt)) {
@@ -236,7 +195,7 @@ void FlowSolver::begin(const FrameFunction& frames, double dt) {
   const Frames now = frames(state_.time);
   if (starts_at_known) euler_.residual(state_.q, now, rates_[0]);
   for (int i = starts_at_known ? 1 : 0; scheme.implicit && i < scheme.stages; ++i)
-    predict(scheme.c[i], dt, now, stages_[stages_.size() - scheme.stages + i]);
+    predict(scheme.c[i] * dt, now, stages_[stages_.size() - scheme.stages + i]);
 }
 
 void FlowSolver::iterate_explicit(const TimeScheme& scheme, const FrameFunction& frames) {
@@ -271,6 +230,10 @@ const StepReport& FlowSolver::iterate(const FrameFunction& frames, int max_newto
 void FlowSolver::accept() {
   state_.third = third_derivative();
   note_krylov();
+  if (state_.earlier) {
+    std::swap(state_.earlier, state_.previous);
+    state_.step_before = state_.last_step;
+  }
   std::swap(state_.previous, state_.q);
   std::swap(state_.q, stages_.back());
   state_.time += dt_;

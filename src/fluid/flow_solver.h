@@ -2,27 +2,18 @@
 #pragma once
 #include <functional>
 
+#include "fluid/flow_state.h"
 #include "fluid/stage_methods.h"
 #include "fluid/time_scheme.h"
 
 namespace windhover::fluid {
-
-/// All that the next step depends on.
-struct FlowState {
-  VecHandle q;         ///< conserved variables at `time`
-  VecHandle previous;  ///< one accepted step earlier
-  double time = 0;
-  double last_step = 0;  ///< time since `previous`; 0: there is none
-  double third = 0;      ///< |V d³q/dt³| as estimated in the last step, 2-norm; 0: unknown or not asked for
-  long step = 0;
-};
 
 struct FlowOptions {
   const TimeScheme* scheme = &kTimeSchemes[0];
   int start_steps = 0;      ///< backward-Euler steps first: Crank–Nicolson does not damp an impulsive start
   double damping = 0;       ///< w of (1 − w) Crank–Nicolson + w BDF2, see bdf2_coefficients
   double truncation_fraction = 0;  ///< of a step's truncation error, where it is known, that its residual may have
-  bool extrapolate = true;  ///< first guess by linear extrapolation in time, at constant entropy
+  bool extrapolate = true;  ///< first guess by extrapolation in time (prediction.h)
   int jacobian_lag = 1;     ///< steps that a preconditioner serves at most
   const StageMethod* method = &kStageMethods[0];
   NewtonOptions newton;
@@ -74,7 +65,7 @@ class FlowSolver {
   bool solve_stage(const TimeScheme& scheme, int i, const FrameFunction& frames, int max_newton, int min_iterations);
   void iterate_explicit(const TimeScheme& scheme, const FrameFunction& frames);
   void explicit_state(const double* coefficients, int stages, double dt, Vec out);
-  void predict(double fraction, double dt, const Frames& now, Vec out) const;
+  void predict(double dt, const Frames& now, Vec out) const;
   double rate_norm() const;
   double third_derivative() const;
   double good_enough(double rate) const;
