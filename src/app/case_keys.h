@@ -217,7 +217,7 @@ void declare(V& v, SolverOptions& o) {
   v.key("jacobian_lag", o.jacobian_lag,
         {.doc = "steps that a preconditioner serves at most; it is made anew when its age has cost what making it costs, a step has changed "
                 "by a quarter or was refused, and after each checkpoint", .min = 1});
-  v.key("extrapolate", o.extrapolate, {.doc = "first guess of a step extrapolated from the last two, at the entropy of the last"});
+  v.key("extrapolate", o.extrapolate, {.doc = "first guess of a step extrapolated from the last three, at the entropy of the last"});
   v.key("max_halvings", o.max_halvings, {.doc = "halvings of a failed step before the run stops", .min = 0, .max = 30});
 }
 

@@ -22,6 +22,7 @@ class OverlappingIlu {
   /// x = what the factors make of b, own rows of both. Collective.
   void solve(const float* b, float* x);
   void solve(const double* b, double* x);
+  InterfaceBand& band() { return *band_; }
 
  private:
   typedef std::array<float, kVariables> Five;
@@ -130,6 +131,8 @@ void set_up_block_ilu(PC pc, int levels, InterfaceCoupling* coupling) {
 }
 
 void apply_block_ilu(PC pc, const float* b, float* x) { late_ilu(pc).ilu->solve(b, x); }
+
+void apply_near_interfaces(PC pc, const float* b, float* x) { late_ilu(pc).ilu->band().solve(b, x); }
 
 void set_up_everywhere_lu(PC pc) {
   MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(pc));

@@ -12,6 +12,8 @@ class InterfaceCoupling;
 void set_up_block_ilu(PC pc, int levels, InterfaceCoupling* coupling);
 /// x = M⁻¹ b, five floats per owned cell. Collective.
 void apply_block_ilu(PC pc, const float* b, float* x);
+/// The rows of x near interfaces, by B⁻¹ and D⁻¹ alone; with a coupling. Collective.
+void apply_near_interfaces(PC pc, const float* b, float* x);
 
 /// UMFPACK, the whole problem on every rank. AIJ matrices.
 void set_up_everywhere_lu(PC pc);

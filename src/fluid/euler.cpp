@@ -47,7 +47,8 @@ EulerOperator::EulerOperator(const mesh::Mesh& mesh, FlowModel model, std::vecto
       model_(std::move(model)),
       sliding_(mesh_, std::move(interfaces)),
       halo_(mesh_.comm, mesh_.halo),
-      patch_kind_(resolve_patches(mesh_, model_, sliding_)) {
+      patch_kind_(resolve_patches(mesh_, model_, sliding_)),
+      whole_(Extent::whole(mesh_)) {
   // with interfaces, the rows of other ranks' cells come after all of the mesh's
   const mesh::Index n_sides = sliding_.empty() ? mesh_.n_gradient : sliding_.n_cells();
   if (model_.reconstruction != Reconstruction::first_order) {
@@ -55,12 +56,6 @@ EulerOperator::EulerOperator(const mesh::Mesh& mesh, FlowModel model, std::vecto
       green_gauss_.emplace(mesh_);
     else
       least_squares_.emplace(mesh_);
-  }
-  zone_cells_.resize(mesh_.zones.size());
-  for (mesh::Index c = 0; c < mesh_.n_owned; ++c) {
-    Range& zone = zone_cells_[mesh_.cell_zone[c]];
-    if (zone.size() == 0) zone.begin = c;
-    zone.end = c + 1;
   }
   state_.resize(sliding_.n_cells(), model_.reconstruction != Reconstruction::first_order ? n_sides : 0);
   rates_.resize(n_sides);
@@ -73,9 +68,9 @@ VecHandle EulerOperator::make_vector() const {
   return v;
 }
 
-FaceInput EulerOperator::face_input(const FrameState& frame) const {
+FaceInput EulerOperator::face_input(const FrameState& frame, const Extent& extent) const {
   FaceInput in;
-  in.rows = {state_.rows(derivative_), state_single_.rows(derivative_single_)};
+  in.rows = {state_.rows(derivative_), state_single_.rows(&extent == &whole_ ? derivative_single_ : near_->derivative)};
   const Vec3 V = frame.R.transpose() * frame.V, omega = frame.R.transpose() * frame.omega;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) in.rotation[3 * i + j] = frame.R(i, j);
@@ -91,8 +86,8 @@ FaceInput EulerOperator::face_input(const FrameState& frame) const {
 /// Leaves the rates at zero for the next sum, while they are in the cache. `turn` leads from the axes of x and out. `rate`:
 /// gets R alone.
 template <class Number, class Scalar>
-void EulerOperator::store_rates(const Scalar* x, Scalar* out, const Combination& combination, const ZoneTurn& turn,
-                                double* rate) {
+void EulerOperator::store_rates(const Scalar* x, Scalar* out, const Combination& combination, const Extent& extent,
+                                const ZoneTurn& turn, double* rate) {
   RowOf<Number>* const rates = this->rates<Number>();
   const double* known = nullptr;
   if (combination.known) petsc(VecGetArrayRead(combination.known, &known));
@@ -119,14 +114,15 @@ void EulerOperator::store_rates(const Scalar* x, Scalar* out, const Combination&
   };
   // whole registers spill over the next cell, which comes after; the last cell must not
   const mesh::Index safe = std::max<mesh::Index>(0, mesh_.n_owned - 1);
-  for (size_t z = 0; z < zone_cells_.size(); ++z) {
+  for (size_t z = 0; z < extent.cells.size(); ++z) {
     for (int k = 0; k < 3 && !turn.none(); ++k)
       for (int i = 0; i < 3; ++i) axes[k].set(1 + i, turn.back(z)(i, k));
-    const Range& zone = zone_cells_[z];
+    const Range& zone = extent.cells[z];
     for (mesh::Index c = zone.begin; c < std::min(zone.end, safe); ++c) combine(c, std::integral_constant<int, 8>());
     for (mesh::Index c = std::max(zone.begin, safe); c < zone.end; ++c)
       combine(c, std::integral_constant<int, kVariables>());
   }
+  for (const mesh::Index c : extent.touched) rates[c] = {};
   std::fill(rates + mesh_.n_owned, rates + rates_.size(), RowOf<Number>{});
   if (combination.known) petsc(VecRestoreArrayRead(combination.known, &known));
 }
@@ -147,20 +143,19 @@ void EulerOperator::prepare(Vec q, const Frames& frames) {
   complete(state_);
 }
 
-/// From own rows of the cells. The zones' own faces and boundaries come while other ranks' rows at interfaces are under way.
+/// From rows and gradients of the cells. The zones' own faces and boundaries come while other ranks' rows at interfaces are under way.
 template <class Number>
-void EulerOperator::sum_rates(CellFields<Number>& fields, const Frames& frames, FluxKernels::Sum<Number> interior,
-                              BoundaryKernels::Sum<Number> boundary) {
+void EulerOperator::sum_rates(CellFields<Number>& fields, const Frames& frames, const Extent& extent,
+                              FluxKernels::Sum<Number> interior, BoundaryKernels::Sum<Number> boundary) {
   RowOf<Number>* const rates = this->rates<Number>();
-  complete(fields);
   begin_interfaces(fields);
   const auto between_cells = [&](const FaceInput& in, const auto* blocks, int n) { interior(in, blocks, n, rates); };
-  for_each_zone<Number>(frames, between_cells);
-  for_each_patch<Number>(frames, [&](const FaceInput& in, BoundaryKind kind, const auto* blocks, int n, int) {
+  for_each_zone<Number>(frames, extent, between_cells);
+  for_each_patch<Number>(frames, extent, [&](const FaceInput& in, BoundaryKind kind, const auto* blocks, int n, int) {
     boundary(in, kind, blocks, n, rates);
   });
   end_interfaces(fields);
-  for_each_interface<Number>(frames, between_cells);
+  for_each_interface<Number>(frames, extent, between_cells);
 }
 
 void EulerOperator::keep_rates() {
@@ -175,13 +170,14 @@ void EulerOperator::residual(Vec q, const Frames& frames, Vec out, const Combina
   }
   fill_cells(q, frames);
   const int r = static_cast<int>(model_.reconstruction);
-  sum_rates(state_, frames, model_.flux->residual[r], kBoundaryKernels.residual[r]);
+  complete(state_);
+  sum_rates(state_, frames, whole_, model_.flux->residual[r], kBoundaryKernels.residual[r]);
   const double* from = nullptr;
   double *to = nullptr, *rate = nullptr;
   petsc(VecGetArrayRead(q, &from));
   petsc(VecGetArrayWrite(out, &to));
   if (rate_) petsc(VecGetArrayWrite(rate_, &rate));
-  store_rates<double>(from, to, combination, {}, rate);
+  store_rates<double>(from, to, combination, whole_, {}, rate);
   if (rate_) petsc(VecRestoreArrayWrite(rate_, &rate));
   petsc(VecRestoreArrayWrite(out, &to));
   petsc(VecRestoreArrayRead(q, &from));
@@ -204,9 +200,10 @@ void EulerOperator::derivative_of(const Scalar* dq, Scalar* out, const Combinati
   const auto sum = [&](const CellFields<Number>& state, CellFields<Number>& along, const auto& interior,
                        const auto& boundary) {
     if (along.cells.empty()) along.resize(state_.cells.size(), state_.gradients.size());
-    fill_derivatives(dq, turn, state, along);
-    sum_rates(along, held_.frames, interior[r], boundary[r]);
-    store_rates<Number>(dq, out, combination, turn);
+    fill_derivatives(dq, turn, whole_, state, along);
+    complete(along);
+    sum_rates(along, held_.frames, whole_, interior[r], boundary[r]);
+    store_rates<Number>(dq, out, combination, whole_, turn);
   };
   if constexpr (std::is_same_v<Number, float>) {
     round_state();
@@ -231,6 +228,23 @@ void EulerOperator::derivative(Vec dq, Vec out, const Combination& combination, 
 
 void EulerOperator::derivative(const float* dq, float* out, const Combination& combination, const ZoneTurn& turn) {
   derivative_of<float>(dq, out, combination, turn);
+}
+
+void EulerOperator::set_near_interfaces(int layers) {
+  Near& near = near_.emplace();
+  near.extent = Extent::near(mesh_, sliding_.own_cells(), layers);
+  if (green_gauss_) near.nodes = green_gauss_->nodes_of(near.extent.gradients);
+  if (least_squares_) near.least_squares.emplace(mesh_, near.extent.gradients);
+  near.derivative.resize(state_.cells.size(), state_.gradients.size());
+}
+
+void EulerOperator::derivative_near_interfaces(const float* dq, float* out, const Combination& combination, const ZoneTurn& turn) {
+  const int r = static_cast<int>(model_.reconstruction);
+  round_state();
+  fill_derivatives(dq, turn, near_->extent, state_single_, near_->derivative);
+  complete_near_interfaces();
+  sum_rates(near_->derivative, held_.frames, near_->extent, model_.flux->derivative_single[r], kBoundaryKernels.derivative_single[r]);
+  store_rates<float>(dq, out, combination, near_->extent, turn);
 }
 
 }  // namespace windhover::fluid

@@ -11,6 +11,7 @@
 
 #include "fluid/block_jacobian.h"
 #include "fluid/boundary_kernels.h"
+#include "fluid/extent.h"
 #include "fluid/gradient.h"
 #include "fluid/sliding_faces.h"
 #include "fluid/zone_turn.h"
@@ -90,6 +91,8 @@ class EulerOperator {
 
   const mesh::Mesh& mesh() const { return mesh_; }
   const FlowModel& model() const { return model_; }
+  /// Own cells of each zone.
+  const std::vector<mesh::Range>& zone_cells() const { return whole_.cells; }
 
   /// A vector of conserved states: five per owned cell, block size 5.
   VecHandle make_vector() const;
@@ -107,6 +110,13 @@ class EulerOperator {
   void derivative(Vec dq, Vec out, const Combination& combination = {}, const ZoneTurn& turn = {}, bool single = false);
   /// The same of floats all through; dq and out: five per owned cell.
   void derivative(const float* dq, float* out, const Combination& combination, const ZoneTurn& turn);
+  /// The same near sliding interfaces only: dq is zero but in cells within so many layers of neighbours from them, and out gets
+  /// the rows of near_interfaces(). Of rows further out, what gradients make of dq there is left out, and of these nothing else.
+  void derivative_near_interfaces(const float* dq, float* out, const Combination& combination, const ZoneTurn& turn);
+  /// Own cells of each zone that it covers.
+  const std::vector<mesh::Range>& near_interfaces() const { return near_->extent.cells; }
+  /// Once, before these.
+  void set_near_interfaces(int layers);
 
   /// jacobian = scale · d(first-order residual)/dq + diagonal(mass_scale · volume). `damping`: a speed by which the
   /// dissipation of each wave between cells is more than the residual's.
@@ -143,7 +153,8 @@ class EulerOperator {
   T mach_column(const State<T>& s, const PackFor<T> grid[3]) const;
   void fill_cells(Vec q, const Frames& frames);
   template <class Number, class Scalar>
-  void fill_derivatives(const Scalar* dq, const ZoneTurn& turn, const CellFields<Number>& state, CellFields<Number>& derivative);
+  void fill_derivatives(const Scalar* dq, const ZoneTurn& turn, const Extent& extent, const CellFields<Number>& state,
+                        CellFields<Number>& derivative);
   template <class Number, class Scalar>
   void derivative_of(const Scalar* dq, Scalar* out, const Combination& combination, const ZoneTurn& turn);
   void round_state();
@@ -152,11 +163,13 @@ class EulerOperator {
   void load_cells(Vec q, const Frames& frames);
   template <class Number>
   void complete(CellFields<Number>& fields);
+  void complete_near_interfaces();
   template <class Number>
   void begin_interfaces(CellFields<Number>& fields) const;
   template <class Number>
   void end_interfaces(CellFields<Number>& fields) const;
-  FaceInput face_input(const mesh::FrameState& frame) const;
+  FaceInput face_input(const mesh::FrameState& frame, const Extent& extent) const;
+  FaceInput face_input(const mesh::FrameState& frame) const { return face_input(frame, whole_); }
   /// The mesh's faces, of floats from the first time round_state() was called.
   template <class Number>
   const std::vector<mesh::FaceBlockOf<Number>>& zone_faces() const {
@@ -174,35 +187,34 @@ class EulerOperator {
   }
   /// Calls visit(input, blocks, count) for the faces inside each zone.
   template <class Number = double, class Visit>
-  void for_each_zone(const Frames& frames, Visit visit) const {
+  void for_each_zone(const Frames& frames, const Extent& extent, Visit visit) const {
     for (size_t z = 0; z < frames.size(); ++z) {
-      const mesh::Range& range = mesh_.zones[z].faces;
-      visit(face_input(frames[z]), zone_faces<Number>().data() + range.begin, static_cast<int>(range.size()));
+      const mesh::Range& range = extent.faces[z];
+      visit(face_input(frames[z], extent), zone_faces<Number>().data() + range.begin, static_cast<int>(range.size()));
     }
   }
   /// Calls visit(input, kind, blocks, count, patch) for the faces of each patch.
   template <class Number = double, class Visit>
-  void for_each_patch(const Frames& frames, Visit visit) const {
+  void for_each_patch(const Frames& frames, const Extent& extent, Visit visit) const {
     for (size_t p = 0; p < mesh_.patches.size(); ++p) {
       if (!patch_kind_[p]) continue;
-      const auto& blocks = patch_faces<Number>(p);
-      visit(face_input(frames[mesh_.patches[p].zone]), *patch_kind_[p], blocks.data(), static_cast<int>(blocks.size()),
-            static_cast<int>(p));
+      visit(face_input(frames[mesh_.patches[p].zone], extent), *patch_kind_[p], patch_faces<Number>(p).data(),
+            extent.patch_blocks[p], static_cast<int>(p));
     }
   }
   /// Calls visit(input, blocks, count) for the faces of each sliding interface that have a cell here.
   template <class Number = double, class Visit>
-  void for_each_interface(const Frames& frames, Visit visit) {
+  void for_each_interface(const Frames& frames, const Extent& extent, Visit visit) {
     if (sliding_.empty()) return;
     const auto& interfaces = sliding_.faces<Number>(frames);
     for (size_t i = 0; i < interfaces.size(); ++i)
-      visit(face_input(frames[sliding_.frame_zone(i)]), interfaces[i].data(), static_cast<int>(interfaces[i].size()));
+      visit(face_input(frames[sliding_.frame_zone(i)], extent), interfaces[i].data(), static_cast<int>(interfaces[i].size()));
   }
   template <class Number>
-  void sum_rates(CellFields<Number>& fields, const Frames& frames, FluxKernels::Sum<Number> interior,
+  void sum_rates(CellFields<Number>& fields, const Frames& frames, const Extent& extent, FluxKernels::Sum<Number> interior,
                  BoundaryKernels::Sum<Number> boundary);
   template <class Number, class Scalar>
-  void store_rates(const Scalar* x, Scalar* out, const Combination& combination, const ZoneTurn& turn = {},
+  void store_rates(const Scalar* x, Scalar* out, const Combination& combination, const Extent& extent, const ZoneTurn& turn = {},
                    double* rate = nullptr);
   void prepare(Vec q, const Frames& frames);
   /// Sums of doubles, or of floats in the same memory: they are never made at once, and zeros in between.
@@ -216,11 +228,18 @@ class EulerOperator {
   SlidingFaces sliding_;
   mesh::RemoteRows halo_;
   std::vector<std::optional<BoundaryKind>> patch_kind_;  ///< none: an interface
-  std::vector<mesh::Range> zone_cells_;                  ///< owned cells of each zone
+  Extent whole_;
   std::optional<GreenGauss> green_gauss_;
   std::optional<LeastSquares> least_squares_;
   CellFields<double> state_, derivative_;
   CellFields<float> state_single_, derivative_single_;  ///< from the first time they are asked for
+  struct Near {
+    Extent extent;
+    std::vector<int> nodes;  ///< of extent.gradients
+    std::optional<LeastSquares> least_squares;
+    CellFields<float> derivative;  ///< zero but in the extent
+  };
+  std::optional<Near> near_;
   struct {
     std::vector<mesh::SingleFaceBlock> zones;
     std::vector<std::vector<mesh::SingleFaceBlock>> patches;

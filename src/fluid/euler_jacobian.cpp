@@ -33,7 +33,7 @@ void EulerOperator::first_order_jacobian(Vec q, const Frames& frames, double sca
   load_cells(q, frames);
   jacobian.begin();
   // across an interface only the cells' own blocks: the neighbours change from step to step
-  for_each_interface(frames, [&](FaceInput in, const FaceBlock* blocks, int n) {
+  for_each_interface(frames, whole_, [&](FaceInput in, const FaceBlock* blocks, int n) {
     BlockPack side;
     in.damping = damping;
     for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
@@ -46,7 +46,7 @@ void EulerOperator::first_order_jacobian(Vec q, const Frames& frames, double sca
       }
     }
   });
-  for_each_zone(frames, [&](FaceInput in, const FaceBlock* blocks, int n) {
+  for_each_zone(frames, whole_, [&](FaceInput in, const FaceBlock* blocks, int n) {
     BlockPack side;
     in.damping = damping;
     for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
@@ -60,7 +60,7 @@ void EulerOperator::first_order_jacobian(Vec q, const Frames& frames, double sca
       }
     }
   });
-  for_each_patch(frames, [&](const FaceInput& in, BoundaryKind kind, const FaceBlock* blocks, int n, int) {
+  for_each_patch(frames, whole_, [&](const FaceInput& in, BoundaryKind kind, const FaceBlock* blocks, int n, int) {
     BlockPack side;
     for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
       kBoundaryKernels.jacobian(in, kind, *b, side);

@@ -43,7 +43,7 @@ std::vector<PatchFlux> EulerOperator::patch_fluxes(Vec q, const Frames& frames) 
   prepare(q, frames);
   const int r = static_cast<int>(model_.reconstruction);
   std::vector<PatchFlux> sums(mesh_.patches.size());
-  for_each_patch(frames, [&](const FaceInput& in, BoundaryKind kind, const FaceBlock* blocks, int n, int p) {
+  for_each_patch(frames, whole_, [&](const FaceInput& in, BoundaryKind kind, const FaceBlock* blocks, int n, int p) {
     const mesh::FrameState& frame = frames[mesh_.patches[p].zone];
     PatchFlux& sum = sums[p];
     for (const FaceBlock* b = blocks; b < blocks + n; ++b) {
@@ -100,10 +100,10 @@ std::vector<double> EulerOperator::spectral_radii(Vec q, const Frames& frames) {
     }
   };
   const auto add_both = [&](const FaceInput& in, const FaceBlock* blocks, int n) { add(in, blocks, n, 2); };
-  for_each_interface(frames, add_both);
-  for_each_zone(frames, add_both);
+  for_each_interface(frames, whole_, add_both);
+  for_each_zone(frames, whole_, add_both);
   for_each_patch(
-      frames, [&](const FaceInput& in, BoundaryKind, const FaceBlock* blocks, int n, int) { add(in, blocks, n, 1); });
+      frames, whole_, [&](const FaceInput& in, BoundaryKind, const FaceBlock* blocks, int n, int) { add(in, blocks, n, 1); });
   radii.resize(mesh_.n_owned);
   return radii;
 }

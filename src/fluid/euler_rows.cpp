@@ -1,6 +1,7 @@
 // Rows of cells and their gradients: what faces read, from conserved states and from other ranks.
 #include <algorithm>
 
+#include "fluid/eight.h"
 #include "fluid/euler.h"
 
 namespace windhover::fluid {
@@ -10,29 +11,6 @@ using mesh::Mat3;
 using mesh::Vec3;
 
 namespace {
-
-/// Eight items of N numbers each, one after the other: those in the array, or a copy padded with zeros where fewer than
-/// eight or what load_columns() reads after them would lie beyond the array's end.
-template <int N, class Scalar = double>
-struct Eight {
-  Scalar copy[8 * N + 8];
-  const Scalar* first;
-
-  Eight(const Scalar* data, mesh::Index left) : first(data) {
-    if (N * left >= 7 * N + 8) return;
-    std::fill(std::begin(copy), std::end(copy), Scalar{});
-    std::copy_n(data, N * std::min<mesh::Index>(left, 8), copy);
-    first = copy;
-  }
-};
-
-/// Eight items of N numbers each as columns, of which the first N mean something.
-template <int N, class Number, class Scalar>
-inline void load_columns(const Eight<N, Scalar>& items, PackOf<Number> columns[8]) {
-  PackOf<Number> rows[8];
-  for (int j = 0; j < 8; ++j) rows[j] = rounded_to<Number>(PackOf<Scalar>::load_unaligned(items.first + N * j));
-  transpose(rows, columns);
-}
 
 /// M², squared speed relative to the moving cell over the speed of sound squared, led smoothly to its bound of 1:
 /// a kink there stalls Newton's method in transonic flow.
@@ -103,13 +81,13 @@ void EulerOperator::fill_cells(Vec q, const Frames& frames) {
   petsc(VecGetArrayRead(q, &values));
   for (size_t z = 0; z < frames.size(); ++z) {
     const GridVelocity grid_velocity(frames[z]);
-    for (mesh::Index c = zone_cells_[z].begin; c < zone_cells_[z].end; c += 8) {
+    for (mesh::Index c = whole_.cells[z].begin; c < whole_.cells[z].end; c += 8) {
       const mesh::Index left = mesh_.n_owned - c;
       Pack grid[3], columns[8];
       grid_velocity.at(Eight<3>(mesh_.centroid[c].data(), left), grid);
       load_columns(Eight<5, double>(values + 5 * c, left), columns);
       const State<Pack> s = primitive(columns, model_.gamma);
-      store_rows(s, mach_column(s, grid), std::min<int>(8, zone_cells_[z].end - c), &state_.cells[c]);
+      store_rows(s, mach_column(s, grid), std::min<int>(8, whole_.cells[z].end - c), &state_.cells[c]);
     }
   }
   petsc(VecRestoreArrayRead(q, &values));
@@ -117,14 +95,14 @@ void EulerOperator::fill_cells(Vec q, const Frames& frames) {
 
 /// Fills own rows of the derivative along dq; `turn` leads from the axes of dq.
 template <class Number, class Scalar>
-void EulerOperator::fill_derivatives(const Scalar* dq, const ZoneTurn& turn, const CellFields<Number>& state,
-                                     CellFields<Number>& derivative) {
+void EulerOperator::fill_derivatives(const Scalar* dq, const ZoneTurn& turn, const Extent& extent,
+                                     const CellFields<Number>& state, CellFields<Number>& derivative) {
   using P = PackOf<Number>;
   for (size_t z = 0; z < held_.frames.size(); ++z) {
     const GridVelocity grid_velocity(held_.frames[z]);
-    for (mesh::Index c = zone_cells_[z].begin; c < zone_cells_[z].end; c += 8) {
+    for (mesh::Index c = extent.cells[z].begin; c < extent.cells[z].end; c += 8) {
       const mesh::Index left = mesh_.n_owned - c;
-      const int count = std::min<int>(8, zone_cells_[z].end - c);
+      const int count = std::min<int>(8, extent.cells[z].end - c);
       P grid[3], along[8], rows[8], columns[8];
       grid_velocity.at(Eight<3>(mesh_.centroid[c].data(), left), grid);
       load_columns(Eight<5, Scalar>(dq + 5 * c, left), along);
@@ -142,9 +120,9 @@ void EulerOperator::fill_derivatives(const Scalar* dq, const ZoneTurn& turn, con
   }
 }
 
-template void EulerOperator::fill_derivatives(const double*, const ZoneTurn&, const CellFields<double>&, CellFields<double>&);
-template void EulerOperator::fill_derivatives(const double*, const ZoneTurn&, const CellFields<float>&, CellFields<float>&);
-template void EulerOperator::fill_derivatives(const float*, const ZoneTurn&, const CellFields<float>&, CellFields<float>&);
+template void EulerOperator::fill_derivatives(const double*, const ZoneTurn&, const Extent&, const CellFields<double>&, CellFields<double>&);
+template void EulerOperator::fill_derivatives(const double*, const ZoneTurn&, const Extent&, const CellFields<float>&, CellFields<float>&);
+template void EulerOperator::fill_derivatives(const float*, const ZoneTurn&, const Extent&, const CellFields<float>&, CellFields<float>&);
 
 /// state_single_ becomes the state that is held.
 void EulerOperator::round_state() {
@@ -172,6 +150,14 @@ void EulerOperator::complete(CellFields<Number>& fields) {
   halo_.end(fields.cells.data());
   if (green_gauss_) green_gauss_->end(fields.cells.data(), fields.gradients.data());
   if (least_squares_) least_squares_->apply(fields.cells.data(), fields.gradients.data());
+}
+
+void EulerOperator::complete_near_interfaces() {
+  CellFields<float>& fields = near_->derivative;
+  halo_.begin(fields.cells.data());
+  halo_.end(fields.cells.data());
+  if (green_gauss_) green_gauss_->apply(fields.cells.data(), fields.gradients.data(), near_->extent.gradients, near_->nodes);
+  if (near_->least_squares) near_->least_squares->apply(fields.cells.data(), fields.gradients.data());
 }
 
 template <class Number>

@@ -150,34 +150,57 @@ void GreenGauss::average(int first, int last, const RowOf<Number>* cells) const 
 template <class Number>
 void GreenGauss::begin(const RowOf<Number>* cells) const {
   auto& node_rows = std::get<NodeRows<Number>>(node_rows_);
-  if (node_rows.empty()) {
-    node_rows.resize(node_start_.size() - 1);
-  }
+  node_rows.resize(node_start_.size() - 1);
   average(0, n_inner_, cells);
+}
+
+/// From the rows of its nodes.
+template <class Number>
+inline void GreenGauss::differentiate(int c, GradientRowOf<Number>* gradients) const {
+  using P = PackOf<Number>;
+  const auto& node_rows = std::get<NodeRows<Number>>(node_rows_);
+  const P base = P::load(node_rows[cell_node_[cell_start_[c]]].v);
+  P g[3] = {0.0, 0.0, 0.0};
+  for (int k = cell_start_[c] + 1; k < cell_start_[c + 1]; ++k) {
+    const P difference = P::load(node_rows[cell_node_[k]].v) - base;
+    for (int d = 0; d < 3; ++d) g[d] += coefficient_[k - c - 1][d] * difference;
+  }
+  gradients[c].store(g);
 }
 
 template <class Number>
 void GreenGauss::end(const RowOf<Number>* cells, GradientRowOf<Number>* gradients) const {
-  using P = PackOf<Number>;
   average(n_inner_, static_cast<int>(node_start_.size()) - 1, cells);
-  const auto& node_rows = std::get<NodeRows<Number>>(node_rows_);
   constexpr int kCellsAhead = 12;
   const int n_cells = static_cast<int>(cell_start_.size()) - 1;
   for (int c = 0; c < n_cells; ++c) {
     const int ahead = std::min(c + kCellsAhead, n_cells - 1);
     for (size_t k = 0; k < 16; k += 64 / sizeof(Number)) __builtin_prefetch(gradients[ahead].v + k, 1);
     for (int k = 0; k < 16; k += 8) __builtin_prefetch(coefficient_[cell_start_[ahead] - ahead].data() + k);
-    const P base = P::load(node_rows[cell_node_[cell_start_[c]]].v);
-    P g[3] = {0.0, 0.0, 0.0};
-    for (int k = cell_start_[c] + 1; k < cell_start_[c + 1]; ++k) {
-      const P difference = P::load(node_rows[cell_node_[k]].v) - base;
-      for (int d = 0; d < 3; ++d) g[d] += coefficient_[k - c - 1][d] * difference;
-    }
-    gradients[c].store(g);
+    differentiate(c, gradients);
   }
   if (exceptions_) exceptions_->apply(cells, gradients);
 }
 
+template <class Number>
+void GreenGauss::apply(const RowOf<Number>* cells, GradientRowOf<Number>* gradients, const std::vector<int>& some,
+                       const std::vector<int>& nodes) const {
+  auto& node_rows = std::get<NodeRows<Number>>(node_rows_);
+  node_rows.resize(node_start_.size() - 1);
+  for (const int node : nodes) average(node, node + 1, cells);
+  for (const int c : some) differentiate(c, gradients);
+  if (exceptions_) exceptions_->apply(cells, gradients);
+}
+
+std::vector<int> GreenGauss::nodes_of(const std::vector<int>& cells) const {
+  std::vector<int> nodes;
+  for (const int c : cells) nodes.insert(nodes.end(), &cell_node_[cell_start_[c]], &cell_node_[cell_start_[c + 1] - 1] + 1);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+template void GreenGauss::apply(const RowOf<float>*, GradientRowOf<float>*, const std::vector<int>&, const std::vector<int>&) const;
 template void GreenGauss::begin(const RowOf<double>*) const;
 template void GreenGauss::begin(const RowOf<float>*) const;
 template void GreenGauss::end(const RowOf<double>*, GradientRowOf<double>*) const;

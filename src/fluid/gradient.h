@@ -48,9 +48,17 @@ class GreenGauss {
   template <class Number>
   void end(const RowOf<Number>* cells, GradientRowOf<Number>* gradients) const;
 
+  /// Of some cells; nodes: nodes_of() them.
+  template <class Number>
+  void apply(const RowOf<Number>* cells, GradientRowOf<Number>* gradients, const std::vector<int>& some,
+             const std::vector<int>& nodes) const;
+  std::vector<int> nodes_of(const std::vector<int>& cells) const;
+
  private:
   template <class Number>
   void average(int first, int last, const RowOf<Number>* cells) const;
+  template <class Number>
+  void differentiate(int cell, GradientRowOf<Number>* gradients) const;
 
   int n_inner_;                  // nodes of own cells alone, which come first
   std::vector<int> node_start_;  // of each node used, into the next two

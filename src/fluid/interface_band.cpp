@@ -5,7 +5,6 @@
 namespace windhover::fluid {
 namespace {
 
-constexpr int kLayers = 3;  // of cells beside an interface's own
 constexpr int kFill = 1;    // levels: with 2 or 3 no Krylov iteration less
 constexpr size_t kBlock = kVariables * kVariables;
 
@@ -50,16 +49,31 @@ bool InterfaceBand::factor(const double* blocks) {
   return factors_.factor(part);
 }
 
-void InterfaceBand::right_side(const float* b, float* changed) {
+/// changed = b − C x at the coupling's cells; at(i, to) writes the five of x.
+template <class At>
+void InterfaceBand::subtract_product(const float* b, const At& at, float* changed) {
   const std::vector<mesh::Index>& cells = coupling_.cells();
-  const auto subtract_product = [&](const auto& at) {
-    for (size_t i = 0; i < cells.size(); ++i) std::copy_n(five(b, cells[i]), kVariables, five(changed, i));
-    coupling_.subtract_product(at, changed);
-  };
-  subtract_product([&](size_t i, float* to) { factors_.solve_row(at_interface_[i], five(b, cells[i]), to); });
+  for (size_t i = 0; i < cells.size(); ++i) std::copy_n(five(b, cells[i]), kVariables, five(changed, i));
+  coupling_.subtract_product(at, changed);
+}
+
+/// x_ = B⁻¹ (1 − C D⁻¹) b
+void InterfaceBand::solve(const float* b) {
+  const std::vector<mesh::Index>& cells = coupling_.cells();
+  changed_.resize(kVariables * cells.size());
+  subtract_product(b, [&](size_t i, float* to) { factors_.solve_row(at_interface_[i], five(b, cells[i]), to); }, changed_.data());
   for (size_t i = 0; i < cells_.size(); ++i) std::copy_n(five(b, cells_[i]), kVariables, five(b_.data(), i));
-  factors_.solve(b_.data(), x_.data(), {at_interface_, changed});
-  subtract_product([&](size_t i, float* to) { std::copy_n(five(x_.data(), at_interface_[i]), kVariables, to); });
+  factors_.solve(b_.data(), x_.data(), {at_interface_, changed_.data()});
+}
+
+void InterfaceBand::solve(const float* b, float* x) {
+  solve(b);
+  for (size_t i = 0; i < cells_.size(); ++i) std::copy_n(five(x_.data(), i), kVariables, five(x, cells_[i]));
+}
+
+void InterfaceBand::right_side(const float* b, float* changed) {
+  solve(b);
+  subtract_product(b, [&](size_t i, float* to) { std::copy_n(five(x_.data(), at_interface_[i]), kVariables, to); }, changed);
 }
 
 }  // namespace windhover::fluid

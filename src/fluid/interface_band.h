@@ -16,6 +16,9 @@ class InterfaceBand {
 
   /// Blocks of the whole matrix, one after the other. False: some pivot cannot be inverted.
   bool factor(const double* blocks);
+  static constexpr int kLayers = 6;  ///< of cells beside an interface's own
+  /// The rows of x near interfaces get B⁻¹ (1 − C D⁻¹) b. Collective.
+  void solve(const float* b, float* x);
   /// changed = b − C x at the coupling's cells, with B x = b − C D⁻¹ b by incomplete factors of B, A's part near an
   /// interface, and D their pivots. b: five values per owned cell. Collective.
   void right_side(const float* b, float* changed);
@@ -25,6 +28,9 @@ class InterfaceBand {
     std::vector<int> start{0}, column;
   };
   Pattern cut(const BlockPattern& whole);
+  template <class At>
+  void subtract_product(const float* b, const At& at, float* changed);
+  void solve(const float* b);
 
   InterfaceCoupling& coupling_;
   std::vector<mesh::Index> cells_;  ///< near an interface, ascending
@@ -32,6 +38,7 @@ class InterfaceBand {
   BlockIlu factors_;
   std::vector<int> at_interface_;  ///< places among cells_ of those at an interface
   std::vector<float> b_, x_;      ///< of cells_
+  std::vector<float> changed_;    ///< right sides of the coupling's cells
 };
 
 }  // namespace windhover::fluid

@@ -46,19 +46,7 @@ void InterfaceCoupling::renew(Vec q, const Frames& frames, double scale, const Z
 }
 
 std::vector<mesh::Index> InterfaceCoupling::cells_within(int layers) const {
-  const mesh::Mesh& mesh = euler_.mesh();
-  std::vector<char> within(mesh.n_cells, false);
-  for (const mesh::Index c : cells_) within[c] = true;
-  for (int k = 0; k < layers; ++k) {
-    const std::vector<char> nearer = within;
-    for (const mesh::FaceBlock& b : mesh.faces)
-      for (int i = 0; i < b.count; ++i)
-        if (nearer[b.cell[0][i]] || nearer[b.cell[1][i]]) within[b.cell[0][i]] = within[b.cell[1][i]] = true;
-  }
-  std::vector<mesh::Index> cells;
-  for (mesh::Index c = 0; c < mesh.n_owned; ++c)
-    if (within[c]) cells.push_back(c);
-  return cells;
+  return own_cells_within(euler_.mesh(), cells_, layers);
 }
 
 void InterfaceCoupling::subtract_product(float* sum) {

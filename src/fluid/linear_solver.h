@@ -37,6 +37,7 @@ class LinearSolver {
   void set_up_double();
   void set_up_single();
   void use_options(KSP ksp, std::optional<LastCorrection>& last);
+  void precondition(PC pc, const float* b, float* x);
   Outcome solve_double(Vec b, Vec x);
   Outcome solve_single(Vec b, Vec x);
   static PetscErrorCode multiply(Mat, Vec x, Vec y);
@@ -56,6 +57,7 @@ class LinearSolver {
   KspHandle ksp_;
   std::optional<SingleGmres> single_;  ///< where everything can be of floats
   std::optional<LastCorrection> last_correction_, last_correction_single_;  ///< where Newton's method may judge a solve
+  std::vector<float> near_, rest_;  ///< correction near interfaces, what it leaves of a right side
   const StageEquation* equation_ = nullptr;
   double fall_ = 0;
   bool rebuild_ = true;

@@ -90,7 +90,7 @@ void set_up_none(PC pc, int, InterfaceCoupling*) { petsc(PCSetType(pc, PCNONE));
 }  // namespace
 
 const Preconditioner kPreconditioners[7] = {
-    {"ilu", true, false, true, set_up_block_ilu, apply_block_ilu},
+    {"ilu", true, false, true, set_up_block_ilu, apply_block_ilu, apply_near_interfaces},
     {"asm", true, false, false, set_up_asm},
     {"rrk", true, false, false, set_up_rrk},
     {"rrk-multigrid", true, false, true, set_up_rrk_multigrid},

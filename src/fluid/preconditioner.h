@@ -17,6 +17,8 @@ struct Preconditioner {
   void (*set_up)(PC pc, int ilu_levels, InterfaceCoupling* coupling);
   /// Applies it to five floats per owned cell; its set-up fails on all ranks or none. Null: it takes PETSc's vectors only.
   void (*apply_single)(PC pc, const float* b, float* x) = nullptr;
+  /// Of the same, a cheap one for the rows of x in InterfaceBand::kLayers beside interfaces; others stay as they are.
+  void (*apply_near_interfaces)(PC pc, const float* b, float* x) = nullptr;
 };
 
 /// ilu (each rank's part, overlap one), asm (PETSc's, overlap one), rrk (a few rational Runge–Kutta steps), rrk-multigrid

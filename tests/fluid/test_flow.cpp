@@ -310,6 +310,47 @@ TEST_CASE("the first guess of a step follows a line in time at constant entropy,
   petsc(VecRestoreArrayRead(solver.iterate(), &guess));
 }
 
+TEST_CASE("the first guess bends with what is smooth in time, and not with what swings", "[flow]") {
+  const mesh::Mesh mesh = mesh::read_mesh(make_mesh("cube"), 1.0, PETSC_COMM_WORLD);
+  EulerOperator euler(mesh, model_for(mesh));
+  FlowOptions options;
+  options.scheme = &time_scheme("crank_nicolson");
+  FlowSolver solver(euler, options);
+  // pressure at times −0.3, −0.1, 0 and its guess for 0.2, which is also 10 v + 1 for the velocity v
+  const auto smooth = [](double t) { return 1 + 0.1 * t + 0.02 * t * t; };
+  const auto swings = [](double t) { return t == -0.1 ? 1.02 : 1; };
+  const auto fill = [&](Vec q, double t) {
+    double* v = nullptr;
+    petsc(VecGetArray(q, &v));
+    for (mesh::Index c = 0; c < mesh.n_owned; ++c) {
+      const double p = c % 2 ? smooth(t) : swings(t);
+      conserved(State<double>{1, 0, (p - 1) / 10, 0, p}, 1.4, v + 5 * c);
+    }
+    petsc(VecRestoreArray(q, &v));
+  };
+  FlowState& state = solver.state();
+  fill(state.earlier, -0.3);
+  fill(state.previous, -0.1);
+  fill(state.q, 0);
+  state.step_before = 0.2;
+  state.last_step = 0.1;
+  solver.begin(frames_of(mesh, {}), 0.2);
+  const double* guess = nullptr;
+  petsc(VecGetArrayRead(solver.iterate(), &guess));
+  double off[2] = {};  // from the parabola through the smooth values, from the line through those that swing
+  const double line = smooth(0) + 2 * (smooth(0) - smooth(-0.1)), swung = 1 - 2 * 0.02;
+  for (mesh::Index c = 0; c < mesh.n_owned; ++c) {
+    const State<double> s = primitive(guess + 5 * c, 1.4);
+    const double expected = c % 2 ? smooth(0.2) : swung;
+    for (const double p : {s.p, 10 * s.v + 1}) off[c % 2 == 0] = std::max(off[c % 2 == 0], std::abs(p - expected));
+  }
+  petsc(VecRestoreArrayRead(solver.iterate(), &guess));
+  MPI_Allreduce(MPI_IN_PLACE, off, 2, MPI_DOUBLE, MPI_MAX, mesh.comm);
+  CAPTURE(off[0], off[1]);
+  CHECK(off[0] == Approx(0.4 * (smooth(0.2) - line)).epsilon(0.01));  // six tenths of the way from the line
+  CHECK(off[1] < 0.003);                                              // a parabola: 0.06 lower
+}
+
 TEST_CASE("a step that cannot be solved is refused and leaves the state as it was", "[flow]") {
   const mesh::Mesh mesh = mesh::read_mesh(make_mesh("cube"), 1.0, PETSC_COMM_WORLD);
   EulerOperator euler(mesh, closed_box(mesh));

@@ -89,6 +89,47 @@ TEST_CASE("the exact derivative sees across a sliding interface", "[sliding]") {
   CHECK(rounding_of_derivative(euler, q, frames) < 1e-6);
 }
 
+TEST_CASE("the derivative near interfaces is the whole one's there", "[sliding]") {
+  const bool sphere = GENERATE(false, true);
+  const int layers = GENERATE(2, 6);
+  Setup s(sphere, {}, BoundaryKind::farfield);
+  s.model.far = {1.0, 0.3, -0.2, 0.1, 1 / 1.4};
+  const mesh::Mesh& mesh = s.sliding.mesh;
+  EulerOperator euler(mesh, s.model, s.sliding.interfaces);
+  const FrameFunction frames = spinning(mesh, s.surface, s.inner_zone(), 0.9, tumbling(0.3));
+  const ZoneTurn turn(frames(0.2), frames(0.7));
+  const VecHandle q = euler.make_vector();
+  set_initial(euler, frames(0.7), uniform_state(s.model.far), q);
+  add_noise(euler, 0.01, q);
+  euler.linearize(q, frames(0.7));
+  const size_t n = kVariables * mesh.n_owned;
+  std::vector<float> dq(n), everywhere(n), whole(n), near(n), again(n);
+  for (size_t i = 0; i < n; ++i) everywhere[i] = static_cast<float>(std::sin(1.0 + 37 * i));
+  for (const mesh::Index c : euler.sliding_faces().own_cells())
+    std::copy_n(&everywhere[kVariables * c], kVariables, &dq[kVariables * c]);
+  euler.set_near_interfaces(layers);
+  euler.derivative(dq.data(), whole.data(), {0.3, 0.5}, turn);
+  euler.derivative(everywhere.data(), again.data(), {0.3, 0.5}, turn);  // what it leaves behind must not be seen
+  euler.derivative_near_interfaces(dq.data(), near.data(), {0.3, 0.5}, turn);
+  double sizes[4] = {};  // of the whole product and the difference; cells of both
+  for (size_t i = 0; i < n; ++i) sizes[0] += whole[i] * whole[i];
+  for (const mesh::Range& zone : euler.near_interfaces()) {
+    for (size_t i = kVariables * zone.begin; i < size_t(kVariables) * zone.end; ++i) {
+      const double difference = near[i] - whole[i];
+      sizes[1] += difference * difference;
+    }
+    sizes[2] += zone.size();
+  }
+  sizes[3] = mesh.n_owned;
+  MPI_Allreduce(MPI_IN_PLACE, sizes, 4, MPI_DOUBLE, MPI_SUM, mesh.comm);
+  CAPTURE(sphere, layers, sizes[0], sizes[2], sizes[3]);
+  CHECK(sizes[2] < sizes[3]);
+  CHECK(std::sqrt(sizes[1] / sizes[0]) < (layers == 2 ? 0.01 : 1e-6));  // gradients reach as far as cells that share a node
+  std::vector<float> after(n);
+  euler.derivative(everywhere.data(), after.data(), {0.3, 0.5}, turn);
+  CHECK(after == again);
+}
+
 TEST_CASE("what a residual leaves behind is used for the same state at the same frames, and for no other", "[sliding]") {
   Setup s(false, {}, BoundaryKind::farfield);
   s.model.far = {1.0, 0.3, -0.2, 0.1, 1 / 1.4};
