@@ -22,7 +22,7 @@ class OverlappingIlu {
   /// x = what the factors make of b, own rows of both. Collective.
   void solve(const float* b, float* x);
   void solve(const double* b, double* x);
-  InterfaceBand& band() { return *band_; }
+  void solve_near_interfaces(const float* b, float* x) { near_->solve(b, x); }
 
  private:
   typedef std::array<float, kVariables> Five;
@@ -30,7 +30,8 @@ class OverlappingIlu {
   Mat inside_;  ///< own rows and columns of the matrix
   OverlappingRows rows_;
   BlockIlu factors_;
-  std::optional<InterfaceBand> band_;
+  std::optional<InterfaceBand> band_;  ///< for right sides
+  std::optional<InterfaceBand> near_;
   std::vector<int> changed_rows_;  ///< other ranks' rows and own ones at interfaces
   std::vector<float> changed_;     ///< their right sides
   mesh::RemoteRows others_;        ///< from other ranks' right sides to changed_
@@ -43,7 +44,11 @@ OverlappingIlu::OverlappingIlu(Mat matrix, int levels, InterfaceCoupling* coupli
         return BlockIlu(rows_.rows(), pattern.start.data(), pattern.column.data(), levels,
                         {rows_.before(), rows_.own()});
       }()) {
-  if (coupling) band_.emplace(*coupling, BlockPattern(inside_));
+  if (coupling) {
+    constexpr int kLayers = 3;
+    band_.emplace(*coupling, BlockPattern(inside_), kLayers);
+    near_.emplace(*coupling, BlockPattern(inside_), kNearInterfaces);
+  }
   changed_rows_.resize(rows_.before());
   std::iota(changed_rows_.begin(), changed_rows_.end(), 0);
   if (coupling)
@@ -59,7 +64,7 @@ bool OverlappingIlu::factor() {
   if (!band_) return regular;
   PetscScalar* blocks = nullptr;
   petsc(MatSeqBAIJGetArray(inside_, &blocks));
-  const bool band_regular = band_->factor(blocks);
+  const bool band_regular = band_->factor(blocks) && near_->factor(blocks);
   petsc(MatSeqBAIJRestoreArray(inside_, &blocks));
   return regular && band_regular;
 }
@@ -132,7 +137,7 @@ void set_up_block_ilu(PC pc, int levels, InterfaceCoupling* coupling) {
 
 void apply_block_ilu(PC pc, const float* b, float* x) { late_ilu(pc).ilu->solve(b, x); }
 
-void apply_near_interfaces(PC pc, const float* b, float* x) { late_ilu(pc).ilu->band().solve(b, x); }
+void apply_near_interfaces(PC pc, const float* b, float* x) { late_ilu(pc).ilu->solve_near_interfaces(b, x); }
 
 void set_up_everywhere_lu(PC pc) {
   MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(pc));

@@ -12,7 +12,9 @@ class InterfaceCoupling;
 void set_up_block_ilu(PC pc, int levels, InterfaceCoupling* coupling);
 /// x = M⁻¹ b, five floats per owned cell. Collective.
 void apply_block_ilu(PC pc, const float* b, float* x);
-/// The rows of x near interfaces, by B⁻¹ and D⁻¹ alone; with a coupling. Collective.
+/// Layers of cells beside those at interfaces.
+inline constexpr int kNearInterfaces = 6;
+/// The rows of x in these layers, by B⁻¹ and D⁻¹ alone; with a coupling. Collective.
 void apply_near_interfaces(PC pc, const float* b, float* x);
 
 /// UMFPACK, the whole problem on every rank. AIJ matrices.

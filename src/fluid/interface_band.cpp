@@ -15,9 +15,9 @@ Number* five(Number* values, size_t cell) {
 
 }  // namespace
 
-InterfaceBand::InterfaceBand(InterfaceCoupling& coupling, const BlockPattern& whole)
+InterfaceBand::InterfaceBand(InterfaceCoupling& coupling, const BlockPattern& whole, int layers)
     : coupling_(coupling),
-      cells_(coupling.cells_within(kLayers)),
+      cells_(coupling.cells_within(layers)),
       factors_([&] {
         const Pattern part = cut(whole);
         return BlockIlu(static_cast<int>(cells_.size()), part.start.data(), part.column.data(), kFill);

@@ -11,12 +11,11 @@ namespace windhover::fluid {
 
 class InterfaceBand {
  public:
-  /// `whole`: the matrix A of this rank's own cells.
-  InterfaceBand(InterfaceCoupling& coupling, const BlockPattern& whole);
+  /// `whole`: the matrix A of this rank's own cells; so many layers of cells beside an interface's own.
+  InterfaceBand(InterfaceCoupling& coupling, const BlockPattern& whole, int layers);
 
   /// Blocks of the whole matrix, one after the other. False: some pivot cannot be inverted.
   bool factor(const double* blocks);
-  static constexpr int kLayers = 6;  ///< of cells beside an interface's own
   /// The rows of x near interfaces get B⁻¹ (1 − C D⁻¹) b. Collective.
   void solve(const float* b, float* x);
   /// changed = b − C x at the coupling's cells, with B x = b − C D⁻¹ b by incomplete factors of B, A's part near an

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fluid/interface_band.h"
+#include "fluid/block_ilu_pc.h"
 #include "fluid/single_vector.h"
 
 namespace windhover::fluid {
@@ -96,7 +96,7 @@ void LinearSolver::set_up_single() {
   single_.emplace(euler_.mesh().comm, kVariables * euler_.mesh().n_owned, product, precondition);
   use_options(single_->ksp(), last_correction_single_);
   petsc(KSPSetFromOptions(single_->ksp()));
-  if (coupling_) euler_.set_near_interfaces(InterfaceBand::kLayers + kReach);
+  if (coupling_) euler_.set_near_interfaces(kNearInterfaces + kReach);
 }
 
 /// Where the residual is still many times its goal, most of it stands at interfaces, whose faces exchange their neighbours in each

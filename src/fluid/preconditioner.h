@@ -17,7 +17,7 @@ struct Preconditioner {
   void (*set_up)(PC pc, int ilu_levels, InterfaceCoupling* coupling);
   /// Applies it to five floats per owned cell; its set-up fails on all ranks or none. Null: it takes PETSc's vectors only.
   void (*apply_single)(PC pc, const float* b, float* x) = nullptr;
-  /// Of the same, a cheap one for the rows of x in InterfaceBand::kLayers beside interfaces; others stay as they are.
+  /// Of the same, a cheap one for the rows of x in kNearInterfaces layers of cells beside interfaces; others stay as they are.
   void (*apply_near_interfaces)(PC pc, const float* b, float* x) = nullptr;
 };
 
