@@ -66,8 +66,8 @@ int check_simulation(const Case& c) {
   // a step in developed flow: 11 residuals on a rotor, 18 on a quadcopter (docs/performance.md), as they are timed here
   const auto& scheme = fluid::time_scheme(c.time.scheme);
   const double residuals_per_step = scheme.implicit ? 15.0 * (scheme.stages > 1 && scheme.a[0][0] != 0 ? 2 : 1) : scheme.stages;
-  // bytes a cell of what is not made yet: matrix, factor, ten pairs of Krylov vectors, products near interfaces; runs end
-  // within 9 % of it
+  // bytes a cell of what is not made yet: matrix, factor, ten pairs of Krylov vectors, products near interfaces; runs
+  // ended within 9 % of it without the last
   const double near_interfaces = euler.sliding_faces().empty() ? 0 : 136;
   const double implicit = 1100 + (c.solver.ilu_levels > 0 ? 750 : 450) + 20 * 2 * 10 + near_interfaces;
   const double later = scheme.implicit && c.solver.method == "newton_krylov" ? mesh.n_global * implicit : 0.0;

@@ -1,6 +1,5 @@
 // The memory of this process.
 #pragma once
-
 namespace windhover {
 
 /// Resident bytes of this rank, now and at most so far.

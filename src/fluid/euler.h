@@ -111,7 +111,7 @@ class EulerOperator {
   /// The same of floats all through; dq and out: five per owned cell.
   void derivative(const float* dq, float* out, const Combination& combination, const ZoneTurn& turn);
   /// The same near sliding interfaces only: dq is zero but in cells within so many layers of neighbours from them, and out gets
-  /// the rows of near_interfaces(). Of rows further out, what gradients make of dq there is left out, and of these nothing else.
+  /// the rows of near_interfaces(), others mean nothing then. Of rows further out, what gradients make of dq there is left out, and of these nothing else.
   void derivative_near_interfaces(const float* dq, float* out, const Combination& combination, const ZoneTurn& turn);
   /// Own cells of each zone that it covers.
   const std::vector<mesh::Range>& near_interfaces() const { return near_->extent.cells; }
