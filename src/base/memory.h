@@ -1,5 +1,6 @@
 // The memory of this process.
 #pragma once
+
 namespace windhover {
 
 /// Resident bytes of this rank, now and at most so far.
