@@ -263,12 +263,20 @@ TEST_CASE("a preconditioner turns with its zone: it is as good half a turn later
   CHECK(turned < 1.05 * fresh);
 }
 
+namespace {
+
+struct CrankNicolsonCube {
+  mesh::Mesh mesh = mesh::read_mesh(make_mesh("cube"), 1.0, PETSC_COMM_WORLD);
+  EulerOperator euler{mesh, model_for(mesh)};
+  FlowSolver solver{euler, {.scheme = &time_scheme("crank_nicolson")}};
+};
+
+}  // namespace
+
 TEST_CASE("the first guess of a step follows a line in time at constant entropy, but no cell towards vacuum", "[flow]") {
-  const mesh::Mesh mesh = mesh::read_mesh(make_mesh("cube"), 1.0, PETSC_COMM_WORLD);
-  EulerOperator euler(mesh, model_for(mesh));
-  FlowOptions options;
-  options.scheme = &time_scheme("crank_nicolson");
-  FlowSolver solver(euler, options);
+  CrankNicolsonCube cube;
+  const mesh::Mesh& mesh = cube.mesh;
+  FlowSolver& solver = cube.solver;
   const FrameFunction frames = frames_of(mesh, {});
   // this rank's first cells; elsewhere 1 and a velocity of 0.1
   struct Cell {
@@ -311,11 +319,9 @@ TEST_CASE("the first guess of a step follows a line in time at constant entropy,
 }
 
 TEST_CASE("the first guess bends with what is smooth in time, and not with what swings", "[flow]") {
-  const mesh::Mesh mesh = mesh::read_mesh(make_mesh("cube"), 1.0, PETSC_COMM_WORLD);
-  EulerOperator euler(mesh, model_for(mesh));
-  FlowOptions options;
-  options.scheme = &time_scheme("crank_nicolson");
-  FlowSolver solver(euler, options);
+  CrankNicolsonCube cube;
+  const mesh::Mesh& mesh = cube.mesh;
+  FlowSolver& solver = cube.solver;
   // pressure at times −0.3, −0.1, 0 and its guess for 0.2, which is also 10 v + 1 for the velocity v
   const auto smooth = [](double t) { return 1 + 0.1 * t + 0.02 * t * t; };
   const auto swings = [](double t) { return t == -0.1 ? 1.02 : 1; };
