@@ -53,6 +53,7 @@ void FlowCheckpoint::write(const std::filesystem::path& directory, const fluid::
   out.array("q", rows_of(state.q), fluid::kVariables);
   out.array("q_previous", rows_of(state.previous), fluid::kVariables);
   if (state.step_before > 0) out.array("q_earlier", rows_of(state.earlier), fluid::kVariables);
+  if (state.remainder) out.array("remainder", rows_of(state.remainder), fluid::kVariables);
   std::vector<double> centroid, volume, zone(mesh_.cell_zone.begin(), mesh_.cell_zone.begin() + mesh_.n_owned);
   for (mesh::Index c = 0; c < mesh_.n_owned; ++c) {
     for (int k = 0; k < 3; ++k) centroid.push_back(s.length * mesh_.centroid[c][k]);
@@ -90,6 +91,7 @@ Memory FlowCheckpoint::read(const std::filesystem::path& directory, fluid::FlowS
     load("q_earlier", state.earlier);
     state.step_before = in.attribute<double>("step_before");
   }
+  if (state.remainder && in.has_array("remainder")) load("remainder", state.remainder);
   const auto recall = [&](const char* name) {
     return in.has_array(name) ? in.array(name, 1, 0, in.rows(name)) : std::vector<double>();
   };

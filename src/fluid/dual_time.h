@@ -20,6 +20,7 @@ class DualTime : public StageSolver {
   /// Never less than solved, whatever max_newton says: a few pseudo-steps change little.
   StageReport solve(const StageEquation& equation, Vec q, const StageScale& scale, int max_newton,
                     int min_iterations) override;
+  Vec left() const override { return first_; }
 
  private:
   void set_pseudo_steps(const StageEquation& equation, Vec q);

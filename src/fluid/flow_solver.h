@@ -79,6 +79,7 @@ class FlowSolver {
   std::vector<VecHandle> rates_;   ///< R_j of the stages that later ones need
   std::vector<StageScale> scales_;  ///< of each stage
   double dt_ = 0;                  ///< of the step begun
+  double rate_factor_ = 1;         ///< of R in the stage last solved
   struct {
     double dt = 0;   ///< of the step for which it was made; 0: there is none
     long step = 0;

@@ -103,7 +103,7 @@ void LinearSolver::set_up_single() {
 /// step: x = x₁ + M⁻¹ (b − A x₁), x₁ near interfaces alone, with exact products there. Not where the whole solve takes the two
 /// iterations that it takes in any case (LastCorrection judges from two).
 void LinearSolver::precondition(PC pc, const float* b, float* x) {
-  constexpr double kMany = 10, kTwoIterations = 1.0 / 60;
+  constexpr double kMany = 4, kTwoIterations = 1.0 / 25;
   const Preconditioner& preconditioner = *options_.preconditioner;
   PetscReal residual = 0;
   petsc(KSPGetResidualNorm(single_->ksp(), &residual));

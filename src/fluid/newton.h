@@ -11,6 +11,7 @@ class NewtonKrylov : public StageSolver {
   NewtonKrylov& operator=(const NewtonKrylov&) = delete;
 
   StageReport solve(const StageEquation& equation, Vec q, const StageScale& scale, int max_newton, int min_iterations) override;
+  Vec left() const override { return residual_; }
   /// The preconditioner.
   void renew() override { linear_.renew(); }
 

@@ -55,6 +55,8 @@ class StageSolver {
   /// (StageScale::unmoved). max_newton, 0: what the options say, is obeyed where few iterations bring q closer.
   virtual StageReport solve(const StageEquation& equation, Vec q, const StageScale& scale, int max_newton = 0,
                             int min_iterations = 0) = 0;
+  /// F(q) of the last solution.
+  virtual Vec left() const = 0;
   /// What is kept from one solve to the next is made anew.
   virtual void renew() {}
 };
