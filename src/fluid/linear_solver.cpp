@@ -103,11 +103,15 @@ void LinearSolver::set_up_single() {
 /// step: x = x₁ + M⁻¹ (b − A x₁), x₁ near interfaces alone, with exact products there. Not where the whole solve takes the two
 /// iterations that it takes in any case (LastCorrection judges from two).
 void LinearSolver::precondition(PC pc, const float* b, float* x) {
-  constexpr double kMany = 4, kTwoIterations = 1.0 / 25;
+  constexpr double kMany = 8, kTwoIterations = 1.0 / 25;
   const Preconditioner& preconditioner = *options_.preconditioner;
   PetscReal residual = 0;
+  KSPConvergedReason reason;
   petsc(KSPGetResidualNorm(single_->ksp(), &residual));
-  if (!coupling_ || fall_ > kTwoIterations || residual < kMany * fall_) {
+  petsc(KSPGetConvergedReason(single_->ksp(), &reason));
+  const bool last_correction = reason > 0;
+  if (!last_correction) near_first_ = coupling_ && fall_ <= kTwoIterations && residual >= kMany * fall_;
+  if (!near_first_) {
     preconditioner.apply_single(pc, b, x);
     return;
   }

@@ -57,6 +57,7 @@ class LinearSolver {
   KspHandle ksp_;
   std::optional<SingleGmres> single_;  ///< where everything can be of floats
   std::optional<LastCorrection> last_correction_, last_correction_single_;  ///< where Newton's method may judge a solve
+  bool near_first_ = false;        ///< so the preconditioner was last applied
   std::vector<float> near_, rest_;  ///< correction near interfaces, what it leaves of a right side
   const StageEquation* equation_ = nullptr;
   double fall_ = 0;
