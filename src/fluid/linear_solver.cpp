@@ -101,7 +101,8 @@ void LinearSolver::set_up_single() {
 
 /// Where the residual is still many times its goal, most of it stands at interfaces, whose faces exchange their neighbours in each
 /// step: x = x₁ + M⁻¹ (b − A x₁), x₁ near interfaces alone, with exact products there. Not where the whole solve takes the two
-/// iterations that it takes in any case (LastCorrection judges from two).
+/// iterations that it takes in any case (LastCorrection judges from two). A last correction begins as the iteration before it did,
+/// by which LastCorrection judged.
 void LinearSolver::precondition(PC pc, const float* b, float* x) {
   constexpr double kMany = 8, kTwoIterations = 1.0 / 25;
   const Preconditioner& preconditioner = *options_.preconditioner;
@@ -109,8 +110,7 @@ void LinearSolver::precondition(PC pc, const float* b, float* x) {
   KSPConvergedReason reason;
   petsc(KSPGetResidualNorm(single_->ksp(), &residual));
   petsc(KSPGetConvergedReason(single_->ksp(), &reason));
-  const bool last_correction = reason > 0;
-  if (!last_correction) near_first_ = coupling_ && fall_ <= kTwoIterations && residual >= kMany * fall_;
+  if (reason == KSP_CONVERGED_ITERATING) near_first_ = coupling_ && fall_ <= kTwoIterations && residual >= kMany * fall_;
   if (!near_first_) {
     preconditioner.apply_single(pc, b, x);
     return;
