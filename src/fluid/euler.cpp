@@ -148,13 +148,13 @@ template <class Number>
 void EulerOperator::sum_rates(CellFields<Number>& fields, const Frames& frames, const Extent& extent,
                               FluxKernels::Sum<Number> interior, BoundaryKernels::Sum<Number> boundary) {
   RowOf<Number>* const rates = this->rates<Number>();
-  begin_interfaces(fields);
+  begin_interfaces(fields, frames);
   const auto between_cells = [&](const FaceInput& in, const auto* blocks, int n) { interior(in, blocks, n, rates); };
   for_each_zone<Number>(frames, extent, between_cells);
   for_each_patch<Number>(frames, extent, [&](const FaceInput& in, BoundaryKind kind, const auto* blocks, int n, int) {
     boundary(in, kind, blocks, n, rates);
   });
-  end_interfaces(fields);
+  end_interfaces(fields, frames);
   for_each_interface<Number>(frames, extent, between_cells);
 }
 
@@ -188,8 +188,8 @@ void EulerOperator::residual(Vec q, const Frames& frames, Vec out, const Combina
 void EulerOperator::linearize(Vec q, const Frames& frames) {
   if (!holds(q, frames)) {
     prepare(q, frames);
-    begin_interfaces(state_);
-    end_interfaces(state_);
+    begin_interfaces(state_, frames);
+    end_interfaces(state_, frames);
     hold(q, frames);
   }
 }

@@ -128,6 +128,8 @@ class EulerOperator {
   void interface_jacobian(Vec q, const Frames& frames, double scale, const ZoneTurn& turn,
                           std::vector<InterfaceBlock>& blocks);
   const SlidingFaces& sliding_faces() const { return sliding_; }
+  /// Rows of other ranks' cells that own ones meet at these frames. Collective.
+  const mesh::RemoteRows& others_at_interfaces(const Frames& frames) { return sliding_.others(frames); }
 
   /// Sums over the whole domain of volume times mass, momentum and energy. Collective.
   std::array<double, kVariables> total(Vec q) const;
@@ -165,9 +167,9 @@ class EulerOperator {
   void complete(CellFields<Number>& fields);
   void complete_near_interfaces();
   template <class Number>
-  void begin_interfaces(CellFields<Number>& fields) const;
+  void begin_interfaces(CellFields<Number>& fields, const Frames& frames);
   template <class Number>
-  void end_interfaces(CellFields<Number>& fields) const;
+  void end_interfaces(CellFields<Number>& fields, const Frames& frames);
   FaceInput face_input(const mesh::FrameState& frame, const Extent& extent) const;
   FaceInput face_input(const mesh::FrameState& frame) const { return face_input(frame, whole_); }
   /// The mesh's faces, of floats from the first time round_state() was called.

@@ -161,21 +161,25 @@ void EulerOperator::complete_near_interfaces() {
 }
 
 template <class Number>
-void EulerOperator::begin_interfaces(CellFields<Number>& fields) const {
-  sliding_.begin_exchange(fields.cells.data());
-  if (!fields.gradients.empty()) sliding_.begin_exchange(fields.gradients.data());
+void EulerOperator::begin_interfaces(CellFields<Number>& fields, const Frames& frames) {
+  if (sliding_.empty()) return;
+  mesh::RemoteRows& others = sliding_.others(frames);
+  others.begin(fields.cells.data());
+  if (!fields.gradients.empty()) others.begin(fields.gradients.data());
 }
 
 template <class Number>
-void EulerOperator::end_interfaces(CellFields<Number>& fields) const {
-  sliding_.end_exchange(fields.cells.data());
-  if (!fields.gradients.empty()) sliding_.end_exchange(fields.gradients.data());
+void EulerOperator::end_interfaces(CellFields<Number>& fields, const Frames& frames) {
+  if (sliding_.empty()) return;
+  mesh::RemoteRows& others = sliding_.others(frames);
+  others.end(fields.cells.data());
+  if (!fields.gradients.empty()) others.end(fields.gradients.data());
 }
 
-#define WINDHOVER_FIELDS_OF(Number)                                         \
-  template void EulerOperator::complete(CellFields<Number>&);               \
-  template void EulerOperator::begin_interfaces(CellFields<Number>&) const; \
-  template void EulerOperator::end_interfaces(CellFields<Number>&) const;
+#define WINDHOVER_FIELDS_OF(Number)                                                 \
+  template void EulerOperator::complete(CellFields<Number>&);                       \
+  template void EulerOperator::begin_interfaces(CellFields<Number>&, const Frames&); \
+  template void EulerOperator::end_interfaces(CellFields<Number>&, const Frames&);
 WINDHOVER_FIELDS_OF(double)
 WINDHOVER_FIELDS_OF(float)
 #undef WINDHOVER_FIELDS_OF
@@ -186,8 +190,10 @@ void EulerOperator::load_cells(Vec q, const Frames& frames) {
   fill_cells(q, frames);
   halo_.begin(state_.cells.data());
   halo_.end(state_.cells.data());
-  sliding_.begin_exchange(state_.cells.data());
-  sliding_.end_exchange(state_.cells.data());
+  if (sliding_.empty()) return;
+  mesh::RemoteRows& others = sliding_.others(frames);
+  others.begin(state_.cells.data());
+  others.end(state_.cells.data());
 }
 
 }  // namespace windhover::fluid

@@ -1,36 +1,14 @@
 #include "fluid/interface_coupling.h"
 
-#include <numeric>
-
-#include "base/collective.h"
 #include "fluid/five_columns.h"
 
 namespace windhover::fluid {
 
 InterfaceCoupling::InterfaceCoupling(EulerOperator& euler)
-    : euler_(euler), cells_(euler.sliding_faces().own_cells()), place_(euler.mesh().n_owned, -1) {
-  for (size_t i = 0; i < cells_.size(); ++i) place_[cells_[i]] = static_cast<mesh::Index>(i);
-  set_up_exchange();
-}
-
-void InterfaceCoupling::set_up_exchange() {
-  const SlidingFaces& faces = euler_.sliding_faces();
-  const mesh::Mesh& mesh = euler_.mesh();
-  // who has each cell, and where among its own
-  std::vector<PetscSFNode> known(faces.n_cells(), {rank_of(mesh.comm), -1});
-  for (mesh::Index c = 0; c < mesh.n_owned; ++c) known[c].index = place_[c];
-  faces.begin_exchange(known.data());
-  faces.end_exchange(known.data());
-  std::vector<PetscSFNode> remote(known.begin() + mesh.n_cells, known.end());
-  std::vector<PetscInt> leaves(remote.size());
-  std::iota(leaves.begin(), leaves.end(), static_cast<PetscInt>(cells_.size()));
-  SfHandle forest;
-  petsc(PetscSFCreate(mesh.comm, forest.out()));
-  petsc(PetscSFSetGraph(forest, static_cast<PetscInt>(cells_.size()), static_cast<PetscInt>(leaves.size()), leaves.data(),
-                        PETSC_COPY_VALUES, remote.data(), PETSC_COPY_VALUES));
-  others_ = mesh::RemoteRows(mesh.comm, forest);
-  x_.resize(kVariables * (cells_.size() + leaves.size()));
-}
+    : euler_(euler),
+      cells_(euler.sliding_faces().own_cells()),
+      place_(euler.sliding_faces().place()),
+      x_(kVariables * (cells_.size() + euler.sliding_faces().n_cells() - euler.mesh().n_cells)) {}
 
 mesh::Index InterfaceCoupling::place(mesh::Index row) const {
   const mesh::Mesh& mesh = euler_.mesh();
@@ -43,6 +21,8 @@ void InterfaceCoupling::renew(Vec q, const Frames& frames, double scale, const Z
     b.row = place(b.row);
     b.column = place(b.column);
   }
+  const auto n = static_cast<mesh::Index>(cells_.size());
+  others_.follow(euler_.others_at_interfaces(frames), place_, n - euler_.mesh().n_cells);
 }
 
 std::vector<mesh::Index> InterfaceCoupling::cells_within(int layers) const {

@@ -26,18 +26,16 @@ class InterfaceCoupling {
   }
 
  private:
-  void set_up_exchange();
   /// Of a row of SlidingFaces among the cells at interfaces.
   mesh::Index place(mesh::Index row) const;
   void subtract_product(float* sum);
 
   EulerOperator& euler_;
-  std::vector<mesh::Index> cells_;  ///< owned, at an interface
-  std::vector<mesh::Index> place_;  ///< of an owned cell among them
-  mesh::RemoteRows others_;         ///< from their ranks' cells_ to what follows those here
+  const std::vector<mesh::Index>&cells_, &place_;  ///< of SlidingFaces: owned cells at an interface, and where each is
+  mesh::RemoteRows others_;                        ///< from their ranks' cells_ to what follows those here
   // what an application touches is numbered without gaps, or it would wait for memory at every block
   std::vector<InterfaceBlock> blocks_;  ///< rows and columns by place()
-  std::vector<float> x_;                ///< five each of cells_ and of other ranks' cells at interfaces
+  std::vector<float> x_;                ///< five each of cells_ and of other ranks' cells that they meet
 };
 
 }  // namespace windhover::fluid

@@ -17,14 +17,14 @@ template <class Number>
 using InterfaceFacesOf = std::vector<mesh::FaceBlockOf<Number>>;
 using InterfaceFaces = InterfaceFacesOf<double>;
 
-/// Cells of other ranks at an interface are kept after the mesh's own cells, as rows [mesh.n_cells, n_cells()): every
-/// rank that has cells at an interface keeps all the others there, since they may meet at some angle, in the
-/// order of their ranks and numbers.
+/// Cells of other ranks that own ones meet at an interface are kept after the mesh's own cells, as rows from mesh.n_cells on: at
+/// every angle others, in the order of their ranks and numbers.
 class SlidingFaces {
  public:
   SlidingFaces(const mesh::Mesh& mesh, std::vector<mesh::SlidingInterface> interfaces);
 
-  mesh::Index n_cells() const { return n_cells_; }
+  /// Rows of cells, with all that may be met at some angle.
+  mesh::Index n_cells() const { return mesh_.n_cells + static_cast<mesh::Index>(peer_.size()); }
   bool empty() const { return interfaces_.empty(); }
   size_t size() const { return interfaces_.size(); }
   /// Whether a patch of the mesh lies on an interface (and so has no boundary condition).
@@ -34,7 +34,9 @@ class SlidingFaces {
   /// The zones of cell[0] and cell[1] of its blocks.
   std::array<int, 2> zones(size_t i) const { return {interfaces_[i].zone(0), interfaces_[i].zone(1)}; }
   /// This rank's cells at an interface, in ascending order.
-  std::vector<mesh::Index> own_cells() const;
+  const std::vector<mesh::Index>& own_cells() const { return own_; }
+  /// Where among them an owned cell is; −1 for one that is away from all interfaces.
+  const std::vector<mesh::Index>& place() const { return place_; }
 
   /// Of each interface at these frames the faces that have a cell on this rank, in the parent's frame, normals from the inner
   /// zone (cell[0]) to the parent. Collective; SolverFailure when the pieces do not sum to the faces (audit).
@@ -47,35 +49,35 @@ class SlidingFaces {
       return position(frames).faces;
   }
 
-  /// Fills the rows of other ranks' cells; between begin and end none of an interface's rows may change. Collective.
-  template <class Row>
-  void begin_exchange(Row* rows) const {
-    remote_.begin(rows);
-  }
-  template <class Row>
-  void end_exchange(Row* rows) const {
-    remote_.end(rows);
-  }
+  /// Which rows of other ranks' cells those faces have. Collective, until frames() is asked for other frames.
+  mesh::RemoteRows& others(const Frames& frames) { return position(frames).others; }
 
  private:
   struct Position {
     std::vector<double> angles;
     std::vector<InterfaceFaces> faces;
     std::vector<InterfaceFacesOf<float>> single;  ///< empty until they are asked for
+    std::vector<mesh::Index> row;                 ///< of each other rank's cell; unmet ones have none
+    mesh::RemoteRows others;
   };
   Position& position(const Frames& frames);
   static const std::vector<InterfaceFacesOf<float>>& single(Position& p);
   void number_cells();
   double angle(const mesh::SlidingInterface& interface, const Frames& frames) const;
-  void make_faces(size_t i, const std::vector<mesh::Piece>& pieces, InterfaceFaces& faces) const;
+  /// Of one interface at its present angle.
+  typedef std::vector<mesh::Piece> Pieces;
+  void choose_rows(const std::vector<const Pieces*>& pieces, Position& position) const;
+  void make_faces(size_t i, const Pieces& pieces, Position& position) const;
 
   const mesh::Mesh& mesh_;
   int rank_;
   std::vector<mesh::SlidingInterface> interfaces_;
-  mesh::Index n_cells_;
-  std::vector<std::array<std::vector<int>, 2>>
-      face_cell_;  ///< row of each face's cell; −1 on ranks away from the interface
-  mutable mesh::RemoteRows remote_;
+  std::vector<std::array<std::vector<mesh::Index>, 2>>
+      face_cell_;  ///< of each face its own cell, or mesh.n_cells and which of the others; −1 on ranks away from the interface
+  std::vector<mesh::Index> own_, place_;
+  std::vector<int> ranks_;                ///< that have cells at this rank's interfaces
+  std::vector<mesh::Index> others_end_;   ///< of each one's cells among the others, which are in the order of ranks and numbers
+  std::vector<int> peer_;                 ///< of each of the others its rank's place in ranks_
   std::deque<Position> positions_;  ///< the latest ones: a step works at its two ends
 };
 

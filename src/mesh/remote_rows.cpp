@@ -22,4 +22,18 @@ RemoteRows::RemoteRows(MPI_Comm comm, PetscSF forest) : comm_(comm) {
   if (n > 0) sent_.assign(rows, rows + start[n]);
 }
 
+void RemoteRows::choose(MPI_Comm comm, std::vector<Peer> to, std::vector<Index> sent, std::vector<Peer> from) {
+  comm_ = comm;
+  to_ = std::move(to);
+  from_ = std::move(from);
+  sent_ = std::move(sent);
+  scattered_.clear();
+}
+
+void RemoteRows::follow(const RemoteRows& other, const std::vector<Index>& place, Index further) {
+  choose(other.comm_, other.to_, other.sent_, other.from_);
+  for (Index& row : sent_) row = place[row];
+  for (Peer& p : from_) p.first += further;
+}
+
 }  // namespace windhover::mesh

@@ -19,6 +19,18 @@ class RemoteRows {
   /// Collective. Fastest where the leaves of each rank follow each other, in the order of the forest's list.
   RemoteRows(MPI_Comm comm, PetscSF forest);
 
+  /// A part of a list for another rank, or from it.
+  struct Peer {
+    int rank = 0;
+    Index first = 0, count = 0;
+  };
+  /// From now on sends the rows `sent`, each rank its part of them, and receives leaves where `from` says. Rank a's list for b
+  /// and what b awaits from a are the same rows in the same order.
+  void choose(MPI_Comm comm, std::vector<Peer> to, std::vector<Index> sent, std::vector<Peer> from);
+  /// From now on exchanges what `other` does, which has chosen its rows, with own row r in place[r] and leaves so many rows
+  /// further on.
+  void follow(const RemoteRows& other, const std::vector<Index>& place, Index further);
+
   /// Fills the leaves of `rows`, plain records; between begin and end no root or leaf may change, and only exchanges of
   /// rows of different sizes may be under way. Collective.
   template <class Row>
@@ -56,10 +68,6 @@ class RemoteRows {
   }
 
  private:
-  struct Peer {
-    int rank = 0;
-    Index first = 0, count = 0;  ///< of sent_, or of scattered_, or of the rows themselves
-  };
   struct Flight {
     std::vector<std::byte> packed, received;
     std::vector<MPI_Request> requests;
@@ -82,7 +90,7 @@ class RemoteRows {
   }
 
   MPI_Comm comm_ = MPI_COMM_NULL;
-  std::vector<Peer> to_, from_;
+  std::vector<Peer> to_, from_;   ///< of sent_; of scattered_, or of the rows themselves
   std::vector<Index> sent_;       ///< own rows, by the rank that wants them
   std::vector<Index> scattered_;  ///< leaves by their rank; none where those of each rank follow each other
   std::map<size_t, Flight> flights_;

@@ -69,3 +69,35 @@ TEST_CASE("rows of other ranks arrive where they belong and nowhere else") {
   SECTION("one behind the other") { check_exchange<double>(1), check_exchange<float>(1); }
   SECTION("scattered") { check_exchange<double>(3), check_exchange<float>(3); }
 }
+
+TEST_CASE("chosen rows arrive, and those of another numbering that follows them") {
+  const int rank = rank_of(PETSC_COMM_WORLD), n_ranks = size_of(PETSC_COMM_WORLD);
+  const std::vector<Index> place{3, 0, 4, 1, 2};  // of each own row in the other numbering
+  const auto n_own = static_cast<Index>(place.size());
+  const int count = 3 - (rank + 1) % 2;  // even ranks want two rows of each other rank, odd ones three
+  std::vector<RemoteRows::Peer> to, from;
+  std::vector<Index> sent;
+  for (int other = 0; other < n_ranks; ++other) {
+    if (other == rank) continue;
+    from.push_back({other, n_own + count * static_cast<Index>(from.size()), count});
+    const auto first = static_cast<Index>(sent.size());
+    for (Index k = 0; k < 3 - (other + 1) % 2; ++k) sent.push_back(4 - 2 * k);
+    to.push_back({other, first, static_cast<Index>(sent.size()) - first});
+  }
+  RemoteRows chosen, following;
+  chosen.choose(PETSC_COMM_WORLD, to, sent, from);
+  following.follow(chosen, place, 10);
+  const auto value = [](int of, Index row) { return 100.0 * of + row; };
+  std::vector<double> rows(n_own + 3 * n_ranks + 10);
+  const auto check = [&](RemoteRows& exchange, Index first_leaf) {
+    exchange.begin(rows.data());
+    exchange.end(rows.data());
+    Index leaf = first_leaf;
+    for (const RemoteRows::Peer& p : from)
+      for (Index k = 0; k < count; ++k) REQUIRE(rows[leaf++] == value(p.rank, 4 - 2 * k));
+  };
+  for (Index i = 0; i < n_own; ++i) rows[i] = value(rank, i);
+  check(chosen, n_own);
+  for (Index i = 0; i < n_own; ++i) rows[place[i]] = value(rank, i);
+  check(following, n_own + 10);
+}
