@@ -100,7 +100,6 @@ void SlidingFaces::choose_rows(const std::vector<const Pieces*>& pieces, Positio
 }
 
 void SlidingFaces::make_faces(size_t i, const Pieces& pieces, Position& position) const {
-  const auto is_own = [&](int side, int face) { return interfaces_[i].faces(side)[face].rank == rank_; };
   const auto row = [&](int side, int face) {
     const mesh::Index cell = face_cell_[i][side][face], other = cell - mesh_.n_cells;
     return other < 0 ? cell : position.row[other];
@@ -110,7 +109,7 @@ void SlidingFaces::make_faces(size_t i, const Pieces& pieces, Position& position
   const auto append = [&](bool inner_is_own) {
     bool full = true;
     for (const mesh::Piece& piece : pieces) {
-      if (is_own(0, piece.inner) != inner_is_own) continue;
+      if ((face_cell_[i][0][piece.inner] < mesh_.n_owned) != inner_is_own) continue;
       if (full) faces.push_back({});
       FaceBlock& b = faces.back();
       const int lane = b.count++;

@@ -103,6 +103,7 @@ void SlidingInterface::cut(double angle) const {
   const auto& [inner, outer] = sides_;
   const int begin = first_of_share(rank_), end = first_of_share(rank_ + 1);
   share_.clear();
+  owners_.clear();
   share_.reserve(6 * static_cast<std::size_t>(end - begin));
   std::vector<int> near;
   Polygon common;
@@ -130,6 +131,7 @@ void SlidingInterface::cut(double angle) const {
       piece.arm = {surface_.to_parent(rotated(patch.centroid, cosine, -sine)) - face.cell_centroid,
                    piece.centroid - other.cell_centroid};
       share_.push_back(piece);
+      owners_.push_back({face.rank, other.rank});
     }
   }
 }
@@ -137,13 +139,15 @@ void SlidingInterface::cut(double angle) const {
 const std::vector<Piece>& SlidingInterface::hand_out() const {
   const int ranks = size_of(comm_);
   if (ranks == 1) return share_;
-  const auto for_each_receiver = [&](const Piece& piece, auto visit) {
-    const int inner = faces(0)[piece.inner].rank, outer = faces(1)[piece.outer].rank;
-    visit(inner);
-    if (outer != inner) visit(outer);
+  const auto for_each_receiver = [&](auto visit) {
+    for (std::size_t k = 0; k < share_.size(); ++k) {
+      const auto [inner, outer] = owners_[k];
+      visit(k, inner);
+      if (outer != inner) visit(k, outer);
+    }
   };
   std::vector<int> n_sent(ranks), n_received(ranks), send_at(ranks), receive_at(ranks);
-  for (const Piece& piece : share_) for_each_receiver(piece, [&](int to) { ++n_sent[to]; });
+  for_each_receiver([&](std::size_t, int to) { ++n_sent[to]; });
   MPI_Alltoall(n_sent.data(), 1, MPI_INT, n_received.data(), 1, MPI_INT, comm_);
   received_.resize(std::accumulate(n_received.begin(), n_received.end(), 0));
   std::exclusive_scan(n_received.begin(), n_received.end(), receive_at.begin(), 0);  // by rank: in the order of the faces
@@ -152,7 +156,7 @@ const std::vector<Piece>& SlidingInterface::hand_out() const {
   std::exclusive_scan(n_sent.begin(), n_sent.end(), send_at.begin(), 0);
   std::vector<Piece*> next;
   for (int to = 0; to < ranks; ++to) next.push_back(to == rank_ ? received_.data() + receive_at[to] : sent_.data() + send_at[to]);
-  for (const Piece& piece : share_) for_each_receiver(piece, [&](int to) { *next[to]++ = piece; });
+  for_each_receiver([&](std::size_t k, int to) { *next[to]++ = share_[k]; });
   const MpiType type(sizeof(Piece), MPI_BYTE);
   MPI_Alltoallv(sent_.data(), n_sent.data(), send_at.data(), type, received_.data(), n_received.data(), receive_at.data(),
                 type, comm_);

@@ -62,6 +62,7 @@ class SlidingInterface {
   MPI_Comm comm_;
   int rank_;
   mutable std::vector<Piece> share_, sent_, received_;  ///< some MB that are kept from call to call
+  mutable std::vector<std::array<int, 2>> owners_;      ///< ranks of the two faces of each piece of share_
 };
 
 /// Collective, once after read_mesh, for all interfaces of the mesh together: finds and checks their faces, and gives the
