@@ -1,9 +1,9 @@
-"""Compares programs, or ranks, second by second: turns.py [--work DIR] [--turns N] [--mesh REFINE] NAME=PROGRAM:RANKS ...
+"""Compares programs, or ranks, second by second: turns.py [--work DIR] [--turns N] [--seconds S] [--mesh REFINE] NAME=PROGRAM:RANKS ...
 
 Each continues the rotor's developed flow of claims.py, stopped but for its seconds, so that all meet the same machine. A turn gives
 each the median of its steps; told are, over the turns, the median of that and of its ratio to the first one's, with quartiles. The
 same program started twice can still differ by some 3 % (where its memory lies): start it several times. RANKS may be `core0` or
-`core1`: one rank there; more ranks are bound to cores.
+`core1`: one rank there; more ranks are bound to cores. A turn must be some steps long.
 """
 
 import argparse
@@ -16,8 +16,6 @@ import subprocess
 import time
 
 import claims
-
-SECONDS = 1.0
 
 
 class Run:
@@ -49,31 +47,37 @@ class Run:
         for pid in (self.process.pid, *map(int, ranks.stdout.split())):
             os.kill(pid, which)
 
-    def turn(self):
+    def turn(self, length):
         self.signal(signal.SIGCONT)
-        time.sleep(SECONDS)
+        time.sleep(length)
         self.signal(signal.SIGSTOP)
         rows = claims.rows_of(self.folder)[self.seen:]
         self.seen += len(rows)
         seconds = [float(row["wall_s"]) for row in rows if row["wall_s"]]
-        self.turns.append(statistics.median(s for s in seconds if s < SECONDS))  # without the one that was stopped
+        self.turns.append(statistics.median(s for s in seconds if s < length))  # without the one that was stopped
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--work", type=pathlib.Path, default=claims.ROOT / "build/claims")
     parser.add_argument("--turns", type=int, default=12)
+    parser.add_argument("--seconds", type=float, default=1.0)
     parser.add_argument("--mesh", default="1.75")
     parser.add_argument("runs", nargs="+", metavar="NAME=PROGRAM:RANKS")
     arguments = parser.parse_args()
     flow = claims.rotor(arguments.work.resolve(), arguments.mesh)
     flow.make()
-    runs = [Run(flow, word) for word in arguments.runs]
-    for i in range(arguments.turns):
-        for run in runs if i % 2 == 0 else reversed(runs):
-            run.turn()
+    runs = []
+    try:
+        for word in arguments.runs:
+            runs.append(Run(flow, word))
+        for i in range(arguments.turns):
+            for run in runs if i % 2 == 0 else reversed(runs):
+                run.turn(arguments.seconds)
+    finally:
+        for run in runs:
+            run.signal(signal.SIGKILL)
     for run in runs:
-        run.signal(signal.SIGKILL)
         low, middle, high = statistics.quantiles([a / b for a, b in zip(runs[0].turns, run.turns)])
         print(f"{run.name}  {statistics.median(run.turns):.4f} s  x{middle:.3f} ({low:.3f} to {high:.3f})")
 

@@ -128,7 +128,7 @@ class EulerOperator {
   void interface_jacobian(Vec q, const Frames& frames, double scale, const ZoneTurn& turn,
                           std::vector<InterfaceBlock>& blocks);
   const SlidingFaces& sliding_faces() const { return sliding_; }
-  /// Rows of other ranks' cells that own ones meet at these frames. Collective.
+  /// As SlidingFaces::others(). Collective.
   const mesh::RemoteRows& others_at_interfaces(const Frames& frames) { return sliding_.others(frames); }
 
   /// Sums over the whole domain of volume times mass, momentum and energy. Collective.

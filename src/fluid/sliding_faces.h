@@ -49,7 +49,7 @@ class SlidingFaces {
       return position(frames).faces;
   }
 
-  /// Which rows of other ranks' cells those faces have. Collective, until frames() is asked for other frames.
+  /// Exchanges the rows of other ranks' cells that those faces have. Collective; valid until faces or others of different frames are asked for.
   mesh::RemoteRows& others(const Frames& frames) { return position(frames).others; }
 
  private:
@@ -74,7 +74,7 @@ class SlidingFaces {
   std::vector<mesh::SlidingInterface> interfaces_;
   std::vector<std::array<std::vector<mesh::Index>, 2>>
       face_cell_;  ///< of each face its own cell, or mesh.n_cells and which of the others; −1 on ranks away from the interface
-  std::vector<mesh::Index> own_, place_;
+  std::vector<mesh::Index> own_, place_;  ///< see own_cells() and place()
   std::vector<int> ranks_;                ///< that have cells at this rank's interfaces
   std::vector<mesh::Index> others_end_;   ///< of each one's cells among the others, which are in the order of ranks and numbers
   std::vector<int> peer_;                 ///< of each of the others its rank's place in ranks_
